@@ -1,0 +1,64 @@
+"""The register of systems: name -> "module:object", resolved only when asked for.
+
+A reader's own package registers in the entry-point group ``formicarium.systems``.
+"""
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import NamedTuple
+
+from pydantic import BaseModel
+
+from formicarium.trial.record import Timeline, Trial
+
+BUILT_IN = {
+    "mark-i3": "formicarium.systems.sequencing.study:MARK_I3",
+}
+GROUP = "formicarium.systems"
+
+
+class Targets(NamedTuple):
+    """Columns of the outcome row that hold times, for run-time distributions."""
+
+    columns: Mapping[str, str]  # outcome column -> label ("time_10_s" -> "10 sequences")
+    published: Mapping[str, tuple[float, ...]]  # outcome column -> the paper's run times, seconds; inf = not reached
+    published_label: str  # what the published curve is ("10 runs of 20 e-pucks, Garattoni & Birattari 2018")
+    published_cap: float  # seconds after which the published runs were ended
+
+
+class System(NamedTuple):
+    """A swarm experiment that can be run, swept, drawn and tested without knowing what it is."""
+
+    name: str
+    summary: str  # one line, for listings and --help
+    parameters: type[BaseModel]  # nested groups of named numbers with unit, source and bounds
+    configure: Callable[..., BaseModel]  # (setting: int | None, robots: int | None) -> parameters
+    run: Callable[..., Trial]  # (parameters, seed, *, frames_every: float | None, watch: Callable | None) -> Trial
+    kinds: tuple[str, ...]  # names of the event kinds, in the order of their numbers
+    targets: Targets
+    timeline: Callable[[Trial], Timeline]  # what the timeline figure shows
+
+
+class UnknownSystem(LookupError):
+    """No system of that name is registered."""
+
+
+def names() -> list[str]:
+    """Return the names of all registered systems, sorted."""
+    return sorted({*BUILT_IN, *(point.name for point in entry_points(group=GROUP))})
+
+
+def resolve(name: str) -> System:
+    """Return the system called ``name``.
+
+    Raises:
+        UnknownSystem: if nothing is registered under that name; the message lists what is.
+    """
+    if name in BUILT_IN:
+        module, attribute = BUILT_IN[name].split(":")
+        return getattr(import_module(module), attribute)
+    for point in entry_points(group=GROUP):
+        if point.name == name:
+            return point.load()
+    raise UnknownSystem(f"unknown system {name!r}; registered systems: {', '.join(names())}")
