@@ -50,7 +50,7 @@ def names() -> list[str]:
 
 
 def resolve(name: str) -> System:
-    """Return the system called ``name``.
+    """Return the system called ``name``; "module:object" names one that is not registered.
 
     Raises:
         UnknownSystem: if nothing is registered under that name; the message lists what is.
@@ -61,4 +61,19 @@ def resolve(name: str) -> System:
     for point in entry_points(group=GROUP):
         if point.name == name:
             return point.load()
+    if ":" in name:
+        return _unregistered(name)
     raise UnknownSystem(f"unknown system {name!r}; registered systems: {', '.join(names())}")
+
+
+def _unregistered(name: str) -> System:
+    module, _, attribute = name.partition(":")
+    try:
+        system = getattr(import_module(module), attribute)
+    except (AttributeError, ModuleNotFoundError, ValueError) as error:
+        if isinstance(error, ModuleNotFoundError) and not f"{module}.".startswith(f"{error.name}."):
+            raise  # the module is there, something that it imports is not
+        raise UnknownSystem(f"there is no system {name!r}: {error}") from error
+    if not isinstance(system, System):
+        raise UnknownSystem(f"{name!r} is no system but a {type(system).__name__}")
+    return system

@@ -1,0 +1,32 @@
+"""What one run gives: a row, and tables of its own."""
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import pyarrow as pa
+
+from formicarium.campaigns.table import Row
+
+# Told the progress inside one run: done and total, in whatever unit the function counts.
+Watch = Callable[[float, float], None]
+
+
+class Result(NamedTuple):
+    """All that a run leaves behind; depends on nothing but the function and the seed."""
+
+    row: Row  # one row of runs.parquet, without the seed
+    tables: Mapping[str, pa.Table]  # name -> table, kept as <name>/seed-<seed>.parquet
+
+
+class Finished(NamedTuple):
+    """A run that has ended, well or badly."""
+
+    seed: int
+    result: Result | None  # None if the run failed
+    failure: str  # traceback or reason, empty if it went well
+    seconds: float  # wall-clock time
+    worker: int  # number of the worker that did it
+
+
+# A function to be repeated: seed and watch -> result. Importable by name, so that other processes find it.
+Function = Callable[[int, Watch | None], Result]

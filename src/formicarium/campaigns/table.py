@@ -1,0 +1,57 @@
+"""Parquet tables: equal rows give equal bytes, and a damaged file is an error that names it."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from formicarium.campaigns.files import StoreError, replacing
+
+Row = Mapping[str, int | float | str | bool | None]
+
+
+def from_rows(rows: Iterable[Row]) -> pa.Table:
+    """Make a table of rows; columns in the order in which they first appear, types wide enough for all rows."""
+    rows = list(rows)
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    return pa.table({name: _column([row.get(name) for row in rows]) for name in names})
+
+
+def _column(values: list[Any]) -> pa.Array:
+    if any(isinstance(value, float) for value in values):  # whole numbers among fractions
+        return pa.array(values, pa.float64())
+    return pa.array(values)
+
+
+def with_metadata(table: pa.Table, metadata: Mapping[str, str]) -> pa.Table:
+    """Return the table with these key-value pairs added to its metadata."""
+    return table.replace_schema_metadata({**(table.schema.metadata or {}), **metadata})
+
+
+def metadata_of(schema: pa.Schema) -> dict[str, str]:
+    """Return the key-value metadata of a schema as text."""
+    return {key.decode(): value.decode() for key, value in (schema.metadata or {}).items()}
+
+
+def write(table: pa.Table, path: Path) -> None:
+    """Write a table whole, with a checksum on every page."""
+    with replacing(path) as temporary:
+        pq.write_table(table, temporary, compression="zstd", write_page_checksum=True)
+
+
+def read(path: Path) -> pa.Table:
+    """Read a table and verify its checksums.
+
+    Raises:
+        StoreError: if the file cannot be read as Parquet.
+    """
+    try:
+        return pq.read_table(path, page_checksum_verification=True, memory_map=False, partitioning=None)
+    except (pa.ArrowException, OSError, ValueError) as error:
+        reason = str(error).splitlines()[0][:200]
+        raise StoreError(
+            f"{path} is damaged ({reason}). Move it away, then run the same command again: "
+            "the runs it held are repeated, the others are kept."
+        ) from error

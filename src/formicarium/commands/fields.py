@@ -1,0 +1,115 @@
+"""Parameters by name: every field of the nested groups, and ``--set name=value`` for any of them."""
+
+import json
+from collections.abc import Iterable, Iterator
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic.fields import FieldInfo
+
+from formicarium.commands.errors import UserError, near
+
+
+class NamedField(NamedTuple):
+    """One number of a system's parameters."""
+
+    path: str  # "booth.dwell_time"
+    info: FieldInfo
+
+    @property
+    def name(self) -> str:
+        """Last part of the path."""
+        return self.path.rpartition(".")[2]
+
+    @property
+    def unit(self) -> str:
+        """Unit as noted beside the field, empty if there is none."""
+        extra = self.info.json_schema_extra
+        return str(extra.get("unit", "")) if isinstance(extra, dict) else ""
+
+    @property
+    def allowed(self) -> str:
+        """Allowed range or values in words, empty if anything of the type goes."""
+        limits = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
+        parts = [
+            f"{words} {getattr(limit, name):g}"
+            for limit in self.info.metadata
+            for name, words in limits.items()
+            if getattr(limit, name, None) is not None
+        ]
+        schema = TypeAdapter(self.info.annotation).json_schema()
+        if "enum" in schema:
+            parts.append("one of " + ", ".join(map(str, schema["enum"])))
+        return " and ".join(parts)
+
+
+def fields(model: type[BaseModel], prefix: str = "") -> Iterator[NamedField]:
+    """Yield every field of a model and of the groups in it, with dotted paths."""
+    for name, info in model.model_fields.items():
+        if isinstance(info.annotation, type) and issubclass(info.annotation, BaseModel):
+            yield from fields(info.annotation, f"{prefix}{name}.")
+        else:
+            yield NamedField(f"{prefix}{name}", info)
+
+
+def with_settings(parameters: BaseModel, settings: Iterable[str]) -> BaseModel:
+    """Return the parameters with settings like "booth.dwell_time=8" or "dwell_time=8" made.
+
+    Raises:
+        UserError: if a name is unknown or ambiguous, or a value not allowed.
+    """
+    content = parameters.model_dump()
+    for setting in settings:
+        name, equals, text = setting.partition("=")
+        if not equals:
+            raise UserError(f"--set {setting}: expected name=value, for example --set {name}=1")
+        field = _find(type(parameters), name.strip())
+        *groups, last = field.path.split(".")
+        place = content
+        for group in groups:
+            place = place[group]
+        place[last] = _value(field, text.strip())
+    try:
+        return type(parameters).model_validate(content)
+    except ValidationError as error:
+        raise UserError(in_words(error)) from error
+
+
+def in_words(error: ValidationError) -> str:
+    """Say which fields of a model are wrong and why."""
+    lines = [
+        f"{'.'.join(map(str, problem['loc'])) or 'parameters'}: {problem['msg']}"
+        + (f" (got {problem['input']!r})" if not isinstance(problem["input"], dict | BaseModel) else "")
+        for problem in error.errors()
+    ]
+    return "; ".join(lines)
+
+
+def _find(model: type[BaseModel], name: str) -> NamedField:
+    known = list(fields(model))
+    exact = [field for field in known if field.path == name]
+    matches = exact or [field for field in known if field.name == name]
+    if len(matches) == 1:
+        return matches[0]
+    if matches:
+        raise UserError(f"--set {name}: ambiguous, say which: {', '.join(field.path for field in matches)}")
+    names = [field.path for field in known] + [field.name for field in known]
+    close = near(name, dict.fromkeys(names))
+    raise UserError(f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM")
+
+
+def _value(field: NamedField, text: str) -> Any:
+    """Read a value as plain text, as JSON ("[1, 2]", "null") or as a list without brackets ("1,2")."""
+    adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.info.annotation, field.info])  # type: ignore[name-defined]
+    problem = None
+    for read in (str, json.loads, lambda text: json.loads(f"[{text}]")):
+        try:
+            return adapter.validate_python(read(text))
+        except ValidationError as error:
+            problem = problem or error
+        except ValueError:
+            continue
+    assert problem is not None  # reading as plain text cannot fail otherwise
+    allowed = f"; allowed: {field.allowed}" + (f" {field.unit}" if field.unit not in ("", "1") else "")
+    reason = problem.errors()[0]["msg"]
+    raise UserError(f"--set {field.path}={text}: {reason}{allowed if field.allowed else ''}")

@@ -1,0 +1,63 @@
+"""One run of a system as campaigns know it: seed in, row and tables out."""
+
+import inspect
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic_core import from_json, to_json
+
+from formicarium import __version__
+from formicarium.campaigns.configuration import Configuration
+from formicarium.campaigns.result import Function, Result, Watch
+from formicarium.commands.tables import result_of
+from formicarium.compiled import PACKAGE, source_hash
+from formicarium.systems.registry import System, resolve
+from formicarium.trial.record import Trial
+
+
+def run_trial(
+    system: str, parameters: bytes, seed: int, frames_every: float | None, watch: Watch | None = None
+) -> Trial:
+    """Run one trial of a system known by name, with parameters as JSON; importable by worker processes."""
+    found = resolve(system)
+    return found.run(
+        found.parameters.model_validate_json(parameters), seed, frames_every=frames_every, watch=watch
+    )
+
+
+def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, float]) -> Function:
+    """Return the function that a set repeats.
+
+    Args:
+        name: of the system, as ``resolve`` takes it.
+        parameters: of all runs.
+        frames_every: seed -> seconds between two frames; no frames for other seeds.
+    """
+    return partial(_perform, name, as_json(parameters), dict(frames_every))
+
+
+def _perform(
+    system: str, parameters: bytes, frames_every: Mapping[int, float], seed: int, watch: Watch | None
+) -> Result:
+    every = frames_every.get(seed)
+    return result_of(run_trial(system, parameters, seed, every, watch), resolve(system).kinds, every)
+
+
+def as_json(parameters: BaseModel) -> bytes:
+    """Write parameters as JSON that reads back as the same parameters, infinities included."""
+    return to_json(parameters, inf_nan_mode="constants")
+
+
+def configuration_of(system: System, parameters: BaseModel) -> Configuration:
+    """Return what decides the results of a system with these parameters."""
+    plain: Any = from_json(as_json(parameters))
+    return Configuration(system.name, plain, source_hash(_own_folder(system)), __version__)
+
+
+def _own_folder(system: System) -> Path | None:
+    """Folder of a system that is not part of the package: its sources decide results as well."""
+    folder = Path(inspect.getfile(inspect.unwrap(system.run))).resolve().parent
+    return None if folder.is_relative_to(PACKAGE) else folder

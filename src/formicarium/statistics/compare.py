@@ -1,0 +1,44 @@
+"""Tests of whether two sets of runs differ."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+
+class Comparison(NamedTuple):
+    """Outcome of a two-sided test of two sets of runs against "no difference"."""
+
+    test: str
+    statistic: float
+    p_value: float
+
+
+def log_rank(
+    times: Sequence[float | None],
+    ends: Sequence[float],
+    other_times: Sequence[float | None],
+    other_ends: Sequence[float],
+) -> Comparison:
+    """Compare two run-time distributions with censoring (log-rank test; Mantel 1966).
+
+    Times and ends as for ``run_times``. The statistic is the signed square root of chi-squared.
+    """
+    result = stats.logrank(_censored(times, ends), _censored(other_times, other_ends))
+    return Comparison("log-rank", float(result.statistic), float(result.pvalue))
+
+
+def fisher(successes: int, runs: int, other_successes: int, other_runs: int) -> Comparison:
+    """Compare two shares (Fisher's exact test). The statistic is the sample odds ratio."""
+    result = stats.fisher_exact(
+        [[successes, runs - successes], [other_successes, other_runs - other_successes]]
+    )
+    return Comparison("Fisher exact", float(result.statistic), float(result.pvalue))
+
+
+def _censored(times: Sequence[float | None], ends: Sequence[float]) -> stats.CensoredData:
+    reached = np.array([time is not None and math.isfinite(time) for time in times])
+    seconds = [time if there else end for time, end, there in zip(times, ends, reached)]
+    return stats.CensoredData.right_censored(seconds, ~reached)
