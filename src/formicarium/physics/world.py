@@ -1,0 +1,189 @@
+"""The world: discs with drives among static scenery, as arrays of records."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from formicarium.physics.grid import find_neighbours, lists_of_scenery
+from formicarium.physics.records import (
+    BODY,
+    CONTACT,
+    MOTION,
+    NEIGHBOUR,
+    OBSTACLE,
+    SEGMENT,
+    SETTINGS,
+    records,
+)
+from formicarium.physics.scenery import (
+    box,
+    chain,
+    joined,
+    obstacles_of,
+    outline,
+    polygon_walls,
+    regular_polygon,
+)
+
+__all__ = [
+    "BODY",
+    "NEIGHBOUR",
+    "OBSTACLE",
+    "SEGMENT",
+    "SETTINGS",
+    "World",
+    "box",
+    "chain",
+    "joined",
+    "make_bodies",
+    "make_world",
+    "outline",
+    "polygon_walls",
+    "regular_polygon",
+]
+
+# What a caller may set, with the values of the reference simulator (design/epuck.md 2.2) except for slop, whose
+# 0.1 m there lets overlapping bodies overlap for ever.
+ADJUSTABLE = {
+    "cycle_time": 0.1,
+    "substeps": 10,
+    "iterations": 10,
+    "slop": 0.0001,
+    "bias": (1.0 - 0.1) ** 60,
+    "friction": 0.7,
+    "reach": 0.82,
+    "scenery_reach": 0.11,
+}
+MOST_CELLS = 64  # along one side of the body grid
+SCENERY_CELL = 0.1  # m
+PAIRS_ALWAYS = 50_000  # room for all pairs of 300 bodies
+PAIRS_PER_BODY = 32  # three times what a packed crowd can have within a cycle's travel
+
+
+class World(NamedTuple):
+    """Everything physics knows. Only bodies are state; what follows neighbour_count is scratch space."""
+
+    bodies: np.recarray  # BODY (N,)
+    segments: np.recarray  # SEGMENT (S,)
+    obstacles: np.recarray  # OBSTACLE (K,)
+    settings: np.recarray  # SETTINGS (1,)
+    neighbours: np.recarray  # NEIGHBOUR (N, N - 1 or more): row i holds the neighbours of body i
+    neighbour_count: np.ndarray  # (N,): how many of row i are valid
+    order: np.ndarray  # (N,): bodies by ascending key
+    rank: np.ndarray  # (N,): place of each body in order
+    cells: np.ndarray  # (N,): cell of each body
+    cell_first: np.ndarray  # (cells + 1,): first member of each cell
+    cell_members: np.ndarray  # (N,): bodies by cell, then by key
+    scenery_first: np.ndarray  # (scenery cells + 1,): first member of each scenery cell
+    scenery_members: np.ndarray  # segments near each scenery cell
+    motions: np.recarray  # MOTION (N + 1,)
+    involved: np.ndarray  # (N,): bodies that can have a contact in this cycle, by key
+    contacts: np.recarray  # CONTACT: pairs that can touch in this cycle, by keys
+    touching: np.ndarray  # contacts that touch in this sub-step
+
+
+def make_bodies(count: int, **fields: object) -> np.recarray:
+    """Return ``count`` bodies with keys 0, 1, ... and with the given fields (numbers or sequences)."""
+    bodies = records(BODY, count)
+    bodies.key = np.arange(count)
+    for name, values in fields.items():
+        if name not in BODY.names:
+            raise ValueError(f"a body has no {name}; it has {', '.join(BODY.names)}")
+        bodies[name] = values
+    return bodies
+
+
+def _check(bodies: np.recarray, segments: np.recarray, settings: np.recarray) -> None:
+    for kind, array in (("bodies", bodies), ("segments", segments), ("settings", settings)):
+        for name in array.dtype.names:
+            if not np.isfinite(array[name]).all():
+                raise ValueError(f"{kind}: {name} must be finite")
+    for name in ("radius", "mass", "inertia"):
+        if not (bodies[name] > 0).all():
+            raise ValueError(f"bodies: {name} must be positive")
+    for name in ("force_limit", "torque_limit"):
+        if not (bodies[name] >= 0).all():
+            raise ValueError(f"bodies: {name} must not be negative")
+    if len(np.unique(bodies.key)) != len(bodies):
+        raise ValueError("bodies: every key must be different")
+    if ((segments.ax == segments.bx) & (segments.ay == segments.by)).any():
+        raise ValueError("segments: a segment must have a length")
+    if not (segments.friction >= 0).all():
+        raise ValueError("segments: friction must not be negative")
+    for name in ("cycle_time", "substeps", "iterations", "reach", "scenery_reach"):
+        if not settings[name][0] > 0:
+            raise ValueError(f"settings: {name} must be positive")
+    if not (settings.slop[0] >= 0 and settings.friction[0] >= 0 and 0 < settings.bias[0] <= 1):
+        raise ValueError("settings: slop and friction must not be negative, bias must be in (0, 1]")
+
+
+def make_world(
+    bodies: np.ndarray,
+    segments: np.ndarray | None = None,
+    obstacles: np.ndarray | None = None,
+    **settings: float,
+) -> World:
+    """Return a world with these bodies and this scenery; its neighbour lists are filled.
+
+    Obstacles are found from the segments' groups if not given. Settings are those named in ADJUSTABLE.
+    """
+    if len(bodies) == 0:
+        raise ValueError("bodies: a world needs at least one")
+    bodies = np.array(bodies, BODY).view(np.recarray)
+    segments = np.array(joined() if segments is None else segments, SEGMENT).view(np.recarray)
+    unknown = sorted(set(settings) - set(ADJUSTABLE))
+    if unknown:
+        raise ValueError(f"no setting is called {', '.join(unknown)}; there are {', '.join(ADJUSTABLE)}")
+    chosen = records(SETTINGS, 1)
+    for name, value in (ADJUSTABLE | settings).items():
+        chosen[name] = value
+    _check(bodies, segments, chosen)
+    if obstacles is None:
+        obstacles = obstacles_of(segments)
+    obstacles = np.array(obstacles, OBSTACLE).view(np.recarray)
+    if ((obstacles.first < 0) | (obstacles.first + obstacles["count"] > len(segments))).any():
+        raise ValueError("obstacles: first and count must name existing segments")
+
+    xs = np.concatenate([segments.ax, segments.bx, bodies.x])
+    ys = np.concatenate([segments.ay, segments.by, bodies.y])
+    set_ = chosen[0]
+    margin = 2.0 * set_.scenery_reach
+    set_.low_x, set_.low_y = xs.min() - margin, ys.min() - margin
+    width, height = xs.max() + margin - set_.low_x, ys.max() + margin - set_.low_y
+    set_.cell = max(set_.reach, width / MOST_CELLS, height / MOST_CELLS)
+    set_.columns, set_.rows = int(width / set_.cell) + 1, int(height / set_.cell) + 1
+    set_.scenery_cell = max(SCENERY_CELL, width / 512, height / 512)
+    set_.scenery_columns = int(width / set_.scenery_cell) + 1
+    set_.scenery_rows = int(height / set_.scenery_cell) + 1
+    time = set_.cycle_time / set_.substeps
+    set_.mending = (1.0 - set_.bias**time) / time
+    set_.tall_walls = int(((segments.group == 0) & (segments.tall != 0)).any())
+    scenery_first, scenery_members = lists_of_scenery(segments, set_)
+
+    count = len(bodies)
+    order = np.argsort(bodies.key, kind="stable")
+    rank = np.empty(count, np.int64)
+    rank[order] = np.arange(count)
+    pairs = min(count * (count - 1) // 2, max(PAIRS_ALWAYS, PAIRS_PER_BODY * count))
+    room = pairs + count * int(np.diff(scenery_first).max(initial=0))
+    world = World(
+        bodies=bodies,
+        segments=segments,
+        obstacles=obstacles,
+        settings=chosen,
+        neighbours=records(NEIGHBOUR, (count, max(1, count - 1))),
+        neighbour_count=np.zeros(count, np.int64),
+        order=order,
+        rank=rank,
+        cells=np.zeros(count, np.int64),
+        cell_first=np.zeros(set_.columns * set_.rows + 1, np.int64),
+        cell_members=np.zeros(count, np.int64),
+        scenery_first=scenery_first,
+        scenery_members=scenery_members,
+        motions=records(MOTION, count + 1),
+        involved=np.zeros(count, np.int64),
+        contacts=records(CONTACT, max(1, room)),
+        touching=np.zeros(max(1, room), np.int64),
+    )
+    find_neighbours(world)
+    return world
