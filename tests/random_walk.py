@@ -99,7 +99,7 @@ def frames(parameters: Parameters, generator, every: float | None) -> Frames | N
     cycles = np.arange(0, parameters.trial.duration / CYCLE_TIME + 1, max(round(every / CYCLE_TIME), 1))
     f = len(cycles)
     turns = generator.normal(0, 0.4, (f, n)).cumsum(0)
-    place = generator.uniform(-0.6, 0.6, (2, n)) + 0.02 * np.array([np.cos(turns), np.sin(turns)]).cumsum(1)
+    place = generator.uniform(-0.6, 0.6, (2, 1, n)) + 0.02 * np.array([np.cos(turns), np.sin(turns)]).cumsum(1)
     place = (place + 0.75) % 3.0
     place = np.where(place > 1.5, 3.0 - place, place) - 0.75
     role = np.zeros((f, n), np.int8)
