@@ -30,17 +30,21 @@ class NamedField(NamedTuple):
     @property
     def allowed(self) -> str:
         """Allowed range or values in words, empty if anything of the type goes."""
-        limits = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
-        parts = [
-            f"{words} {getattr(limit, name):g}"
+        found = {
+            name: getattr(limit, name)
             for limit in self.info.metadata
-            for name, words in limits.items()
+            for name in ("ge", "gt", "le", "lt")
             if getattr(limit, name, None) is not None
-        ]
+        }
+        if {"ge", "le"} <= found.keys():
+            parts = [f"{found['ge']:g} to {found['le']:g}"]
+        else:
+            words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
+            parts = [f"{words[name]} {limit:g}" for name, limit in found.items()]
         schema = TypeAdapter(self.info.annotation).json_schema()
         if "enum" in schema:
             parts.append("one of " + ", ".join(map(str, schema["enum"])))
-        return " and ".join(parts)
+        return ", ".join(parts)
 
 
 def fields(model: type[BaseModel], prefix: str = "") -> Iterator[NamedField]:
@@ -95,7 +99,9 @@ def _find(model: type[BaseModel], name: str) -> NamedField:
         raise UserError(f"--set {name}: ambiguous, say which: {', '.join(field.path for field in matches)}")
     names = [field.path for field in known] + [field.name for field in known]
     close = near(name, dict.fromkeys(names))
-    raise UserError(f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM")
+    raise UserError(
+        f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM"
+    )
 
 
 def _value(field: NamedField, text: str) -> Any:

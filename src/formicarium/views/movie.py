@@ -99,5 +99,10 @@ def _write_gif(scene: Scene, frames: Frames, path: Path, title: str, progress: P
     )
     first = next(pictures)
     first.save(
-        path, format="GIF", save_all=True, append_images=pictures, loop=0, duration=1000 // GIF_FRAMES_PER_SECOND
+        path,
+        format="GIF",
+        save_all=True,
+        append_images=pictures,
+        loop=0,
+        duration=1000 // GIF_FRAMES_PER_SECOND,
     )

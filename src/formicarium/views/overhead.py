@@ -82,7 +82,9 @@ class Overhead:
         half = (high - low).max() / 2
         middle = (low + high) / 2
         self.axes.set(
-            xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal"
+            xlim=(middle[0] - half, middle[0] + half),
+            ylim=(middle[1] - half, middle[1] + half),
+            aspect="equal",
         )
         for polygon in self.scene.polygons:
             if polygon.colour == "wall":
@@ -97,7 +99,9 @@ class Overhead:
         length = 0.5 if half > 0.6 else 0.1
         start = middle - half + 0.05 * half
         self.axes.plot([start[0], start[0] + length], [start[1]] * 2, color=INK, linewidth=2)
-        self.axes.text(start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK)
+        self.axes.text(
+            start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK
+        )
 
     def _make_moving(self) -> None:
         devices = [polygon for polygon in self.scene.polygons if polygon.colour != "wall"]
@@ -114,7 +118,9 @@ class Overhead:
             linewidths=0,
             zorder=3,
         )
-        self.chain = LineCollection([], colors="#c9a400", linewidths=7, alpha=0.35, capstyle="round", zorder=3)
+        self.chain = LineCollection(
+            [], colors="#c9a400", linewidths=7, alpha=0.35, capstyle="round", zorder=3
+        )
         self.bodies = EllipseCollection(
             [2 * self.scene.radius],
             [2 * self.scene.radius],
@@ -163,7 +169,14 @@ class Overhead:
         marker = {"marker": "o", "markersize": 17, "markerfacecolor": style.fill, "markeredgecolor": INK}
         self.side.plot([0.2], [height], linestyle="", **marker)
         self.side.text(
-            0.2, height - 0.01, style.letter or "1", size=10, color=style.ink, weight="bold", ha="center", va="center"
+            0.2,
+            height - 0.01,
+            style.letter or "1",
+            size=10,
+            color=style.ink,
+            weight="bold",
+            ha="center",
+            va="center",
         )
         self.side.text(0.42, height, name, size=11, color=INK, va="center")
         self.counts.append(self.side.text(1.45, height, "", size=11, color=INK, va="center", ha="right"))

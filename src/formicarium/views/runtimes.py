@@ -55,9 +55,15 @@ def draw_run_times(
     ]  # fmt: skip
     figure.text(0.095, 0.955, title, size=12, color=INK, weight="bold", va="center")
     style = {"frameon": False, "fontsize": 9.5, "columnspacing": 1.6, "borderaxespad": 0.0}
-    figure.legend(handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.925), ncols=len(targets), **style)
     figure.legend(
-        handles=sources[: 2 if published else 1], loc="upper left", bbox_to_anchor=(0.087, 0.877), ncols=2, **style
+        handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.925), ncols=len(targets), **style
+    )
+    figure.legend(
+        handles=sources[: 2 if published else 1],
+        loc="upper left",
+        bbox_to_anchor=(0.087, 0.877),
+        ncols=2,
+        **style,
     )
     return save(figure, path)
 
@@ -71,9 +77,13 @@ def _draw_measured(axes: Axes, distribution: RunTimes, end: float, colour: str) 
 
 
 def _draw_published(axes: Axes, distribution: RunTimes, end: float, colour: str) -> None:
-    axes.step(*_steps(distribution, distribution.share, 0.0, end), where="post", color=colour, lw=1.4, ls="--")
+    axes.step(
+        *_steps(distribution, distribution.share, 0.0, end), where="post", color=colour, lw=1.4, ls="--"
+    )
     new = np.diff(np.concatenate([[0.0], distribution.share])) > 0
-    axes.plot(distribution.times[new], distribution.share[new], "o", color=colour, markersize=4, clip_on=False)
+    axes.plot(
+        distribution.times[new], distribution.share[new], "o", color=colour, markersize=4, clip_on=False
+    )
 
 
 def _steps(

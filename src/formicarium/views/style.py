@@ -45,9 +45,7 @@ _OTHERS = ("#8ecae6", "#ffb703", "#b5e48c", "#cdb4db", "#f4a582", "#92c5de")
 def role_styles(roles: tuple[str, ...]) -> list[RoleStyle]:
     """Return a style for every role; roles that nobody thought of get a colour and their first letter."""
     others = iter(_OTHERS * (len(roles) // len(_OTHERS) + 1))
-    return [
-        _KNOWN.get(role) or RoleStyle(next(others), role[:1].upper(), INK, False) for role in roles
-    ]
+    return [_KNOWN.get(role) or RoleStyle(next(others), role[:1].upper(), INK, False) for role in roles]
 
 
 def colour(name: str) -> str:

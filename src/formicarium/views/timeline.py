@@ -65,7 +65,8 @@ def _draw_lanes(axes: Axes, timeline: Timeline, roles: tuple[str, ...]) -> None:
     axes.spines[["left", "bottom"]].set_visible(False)
     present = sorted({span.role for span in timeline.spans})
     handles = [
-        Patch(facecolor=styles[role].fill, edgecolor=PALE_INK, linewidth=0.5, label=roles[role]) for role in present
+        Patch(facecolor=styles[role].fill, edgecolor=PALE_INK, linewidth=0.5, label=roles[role])
+        for role in present
     ]
     axes.legend(
         handles=handles, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(handles), frameon=False,

@@ -1,0 +1,40 @@
+"""Systems and their parameters as a person names them."""
+
+from collections.abc import Iterable
+
+from pydantic import BaseModel, ValidationError
+
+from formicarium.commands.errors import UserError, near
+from formicarium.commands.fields import in_words, with_settings
+from formicarium.systems.registry import System, UnknownSystem, names, resolve
+
+
+def find_system(name: str) -> System:
+    """Return a system by name.
+
+    Raises:
+        UserError: if there is none of that name; lists those there are.
+    """
+    try:
+        return resolve(name)
+    except UnknownSystem as error:
+        raise UserError(f"{error}.{near(name, names())}") from error
+
+
+def parameters_of(
+    system: System, setting: int | None, robots: int | None, settings: Iterable[str]
+) -> BaseModel:
+    """Return the parameters of a published setting, with a number of robots and single settings changed.
+
+    Raises:
+        UserError: if one of them is not allowed.
+    """
+    given = {"setting": setting, "robots": robots}
+    options = " ".join(f"--{name} {value}" for name, value in given.items() if value is not None)
+    try:
+        parameters = system.configure(setting=setting, robots=robots)
+    except ValidationError as error:
+        raise UserError(f"{options}: {in_words(error)}") from error
+    except ValueError as error:
+        raise UserError(f"{options}: {error}") from error
+    return with_settings(parameters, settings)

@@ -1,0 +1,80 @@
+"""The command ``formicarium``: its verbs, and one clear message for everything that goes wrong.
+
+Exit codes: 0 all well, 1 a run failed or something unexpected happened, 2 bad input, 130 interrupted.
+Nothing heavy is imported before a verb needs it, so that ``--help`` answers at once.
+"""
+
+import sys
+import tempfile
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+
+from cyclopts import App, CycloptsError
+
+from formicarium import __version__
+from formicarium.campaigns.files import StoreError
+from formicarium.commands.describe import describe
+from formicarium.commands.errors import UserError
+from formicarium.commands.run import run
+from formicarium.commands.systems import systems
+
+HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
+
+Start here:
+
+    formicarium systems                     which systems there are
+    formicarium run mark-i3                 one run, with pictures
+    formicarium run mark-i3 --runs 30       thirty runs on all cores
+    formicarium describe mark-i3            every number --set can change
+"""
+
+app = App(
+    name="formicarium", version=__version__, help=HELP, help_format="plaintext", help_flags=["--help", "-h"]
+)
+app.command(run)
+app.command(systems)
+app.command(describe)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and exit."""
+    sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
+
+
+def exit_code(arguments: Sequence[str]) -> int:
+    """Run the command line and return the exit code; messages about trouble go to stderr."""
+    try:
+        answer = app(list(arguments), exit_on_error=False, print_error=False, result_action="return_value")
+        return answer if isinstance(answer, int) else 0
+    except CycloptsError as error:
+        command = " ".join(["formicarium", *arguments[:1]]) if arguments[:1] != ["--help"] else "formicarium"
+        return _say(f"{_plain(error)} See: {command} --help", 2)
+    except (UserError, StoreError) as error:
+        return _say(str(error), 2)
+    except KeyboardInterrupt as interruption:
+        return _say(str(interruption) or "interrupted", 130)
+    except Exception as error:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="formicarium-", suffix=".txt", delete=False, encoding="utf-8"
+        ) as file:
+            file.write(f"formicarium {' '.join(arguments)}\n\n{traceback.format_exc()}")
+        reason = f"{type(error).__name__}: {error}"
+        return _say(
+            f"unexpected {reason}\nThis is a defect, not your mistake. The traceback is in {Path(file.name)}; "
+            "please send it with a report.",
+            1,
+        )
+
+
+def _plain(error: CycloptsError) -> str:
+    return " ".join(str(error).split())
+
+
+def _say(message: str, code: int) -> int:
+    print(f"formicarium: {message}", file=sys.stderr)
+    return code
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+"""``formicarium run SYSTEM``: one run or a set of runs, with tables, pictures and a summary."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+
+def run(
+    system: str,
+    /,
+    *,
+    runs: int = 1,
+    seed: int = 1,
+    robots: int | None = None,
+    setting: int | None = None,
+    set_: Annotated[list[str] | None, Parameter(name="--set", negative="")] = None,
+    out: Path | None = None,
+    workers: int | None = None,
+    movie: Annotated[bool, Parameter(negative="")] = False,
+    frames: float | None = None,
+) -> int:
+    """Run a system once or many times, and keep tables and pictures of it.
+
+    The same command run again loads what is there and produces what is
+    missing: more --runs extend a set, an interrupted set continues. Results do
+    not depend on --workers.
+
+    Examples:
+
+        formicarium run mark-i3
+        formicarium run mark-i3 --seed 7 --movie
+        formicarium run mark-i3 --runs 30 --setting 2 --out study
+        formicarium run mark-i3 --robots 28 --set booth.dwell_time=4
+
+    Parameters
+    ----------
+    system
+        Name of the system; list them with: formicarium systems
+    runs
+        How many runs; run k, counted from 0, uses seed + k.
+    seed
+        Seed of the first run.
+    robots
+        Number of robots, instead of that of the setting.
+    setting
+        A published setting of the system, by its number.
+    set_
+        Change a parameter: NAME=VALUE, as often as needed. List: formicarium describe SYSTEM
+    out
+        Folder of the results; a new folder of formicarium-results for each identity if not given.
+    workers
+        Processes that share the runs; one a core if not given.
+    movie
+        Make a movie of every run (of the first only if there are more than 10).
+    frames
+        Seconds between two records of all positions; 2 for a single run, 0.5 for a movie if not given.
+    """
+    from formicarium.commands.session import Request, perform
+
+    return perform(
+        Request(system, runs, seed, robots, setting, tuple(set_ or ()), out, workers, movie, frames)
+    )

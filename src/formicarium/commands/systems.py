@@ -1,0 +1,18 @@
+"""``formicarium systems``: which systems there are."""
+
+
+def systems() -> None:
+    """List the systems that can be run, the package's own and those of other installed packages."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from formicarium.systems.registry import names, resolve
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2))
+    for title in ("system", "what it is"):
+        table.add_column(title)
+    for name in names():
+        table.add_row(name, resolve(name).summary)
+    console = Console()
+    console.print(table)
+    console.print("\nRun one with: formicarium run SYSTEM", highlight=False)
