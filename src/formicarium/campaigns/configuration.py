@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 
 class Configuration(NamedTuple):
-    """Everything that decides the result of a run besides its seed, and the version that is told to people."""
+    """Everything that decides the result of a run besides its seed, and the version for people to read."""
 
     system: str  # name of what is run
     parameters: Mapping[str, Any]  # nested groups of plain values

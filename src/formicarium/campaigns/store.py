@@ -152,6 +152,6 @@ class Store:
 
 
 def _same(row: Row, stored: Row) -> bool:
-    """Tell whether two rows are equal, an absent value being None and nothing being equal to itself but NaN."""
+    """Tell whether two rows are equal, an absent value being None, and NaN equal to NaN."""
     pairs = [(row.get(name), stored.get(name)) for name in {*row, *stored}]
     return all(one == other or (one != one and other != other) for one, other in pairs)

@@ -13,7 +13,7 @@ Row = Mapping[str, int | float | str | bool | None]
 
 
 def from_rows(rows: Iterable[Row]) -> pa.Table:
-    """Make a table of rows; columns in the order in which they first appear, types wide enough for all rows."""
+    """Make a table of rows; columns in order of appearance, types wide enough for all rows."""
     rows = list(rows)
     names = list(dict.fromkeys(name for row in rows for name in row))
     return pa.table({name: _column([row.get(name) for row in rows]) for name in names})

@@ -84,12 +84,13 @@ def _next(function: bytes, pipe: Any, worker: _Worker, seed: int) -> tuple[Any, 
 def _in_processes(function: bytes, seeds: list[int], workers: int) -> Iterator[Finished]:
     waiting = seeds[::-1]
     crew: dict[Any, _Worker] = {}
+    pipe: Any
     try:
         for number in range(workers):
             pipe, worker = _start(function, number, waiting.pop())
             crew[pipe] = worker
         while crew:
-            for pipe in connection.wait(list(crew)):
+            for pipe in list(connection.wait(list(crew))):
                 worker = crew.pop(pipe)
                 finished = _receive(pipe, worker)
                 if waiting:

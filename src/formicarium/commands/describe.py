@@ -38,7 +38,7 @@ def describe(system: str, /) -> None:
     console.print(f"{found.name}: {found.summary}\n", highlight=False)
     console.print(table)
     console.print(
-        f"\nChange one with: formicarium run {found.name} --set NAME=VALUE (the last part of a name is enough "
-        "where it is unique)",
+        f"\nChange one with: formicarium run {system} --set NAME=VALUE\n"
+        "The last part of a name is enough where it is unique.",
         highlight=False,
     )

@@ -41,7 +41,8 @@ class NamedField(NamedTuple):
         else:
             words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
             parts = [f"{words[name]} {limit:g}" for name, limit in found.items()]
-        schema = TypeAdapter(self.info.annotation).json_schema()
+        adapter: TypeAdapter[Any] = TypeAdapter(Any if self.info.annotation is None else self.info.annotation)
+        schema = adapter.json_schema()
         if "enum" in schema:
             parts.append("one of " + ", ".join(map(str, schema["enum"])))
         return ", ".join(parts)
@@ -106,7 +107,8 @@ def _find(model: type[BaseModel], name: str) -> NamedField:
 
 def _value(field: NamedField, text: str) -> Any:
     """Read a value as plain text, as JSON ("[1, 2]", "null") or as a list without brackets ("1,2")."""
-    adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.info.annotation, field.info])  # type: ignore[name-defined]
+    bounded: Any = Annotated[field.info.annotation, field.info]
+    adapter: TypeAdapter[Any] = TypeAdapter(bounded)
     problem = None
     for read in (str, json.loads, lambda text: json.loads(f"[{text}]")):
         try:

@@ -61,8 +61,8 @@ def exit_code(arguments: Sequence[str]) -> int:
             file.write(f"formicarium {' '.join(arguments)}\n\n{traceback.format_exc()}")
         reason = f"{type(error).__name__}: {error}"
         return _say(
-            f"unexpected {reason}\nThis is a defect, not your mistake. The traceback is in {Path(file.name)}; "
-            "please send it with a report.",
+            f"unexpected {reason}\nThis is a defect, not your mistake. "
+            f"The traceback is in {Path(file.name)}; please send it with a report.",
             1,
         )
 

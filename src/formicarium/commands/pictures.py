@@ -26,7 +26,7 @@ def draw_set(system: System, store: Store, seeds: Sequence[int], folder: Path) -
             folder / "runtimes.png",
             title=f"{system.name}: time to target",
             published_label=label,
-        )  # fmt: skip
+        )
     ]
 
 

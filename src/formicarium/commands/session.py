@@ -67,9 +67,14 @@ def perform(request: Request) -> int:
         with Progress(trouble, f"{system.name}", len(seeds)) as progress:
             try:
                 report = run_set(
-                    function, seeds, store, workers=request.workers, wanted=wanted,
-                    progress=progress.runs, watch=progress.inside,
-                )  # fmt: skip
+                    function,
+                    seeds,
+                    store,
+                    workers=request.workers,
+                    wanted=wanted,
+                    progress=progress.runs,
+                    watch=progress.inside,
+                )
             except KeyboardInterrupt:
                 done = len(store.rows_of(seeds))
                 raise KeyboardInterrupt(
@@ -118,7 +123,8 @@ def _report_failures(report: SetReport, folder: Path) -> int:
     if report.failures:
         count = len(report.failures)
         print(
-            f"\nformicarium: {count} run{'s' * (count > 1)} failed (seed {', '.join(map(str, report.failures))}); "
+            f"\nformicarium: {count} run{'s' * (count > 1)} failed "
+            f"(seed {', '.join(map(str, report.failures))}); "
             f"tracebacks in {folder / 'failures'}. The same command tries them again.",
             file=sys.stderr,
         )

@@ -14,23 +14,25 @@ from formicarium.statistics.intervals import wilson
 from formicarium.statistics.runtimes import RunTimes, in_words, run_times
 from formicarium.systems.registry import System
 
-END = "duration_s"  # outcome column: when the run ended, seconds; without it the cap of the published runs counts
-CAUSE = "cause"  # outcome column: why the run did not do all it should
+# Outcome column: when the run ended, seconds. Without it the cap of the published runs counts.
+END = "duration_s"
+# Outcome column: why the run did not do all it should.
+CAUSE = "cause"
 
 
 def measured(system: System, rows: Sequence[Row]) -> dict[str, RunTimes]:
     """Return the run-time distribution of every target, by label."""
     if not rows:
         return {}
-    ends = [_number(row.get(END), system.targets.published_cap) for row in rows]
+    ends = [_number(row.get(END)) or system.targets.published_cap for row in rows]
     return {
-        label: run_times([_number(row.get(column), None) for row in rows], ends)
+        label: run_times([_number(row.get(column)) for row in rows], ends)
         for column, label in system.targets.columns.items()
     }
 
 
 def published(system: System) -> dict[str, RunTimes]:
-    """Return the run-time distribution of the published runs for every target that was published, by label."""
+    """Return the run-time distribution of the published runs, by label of the target."""
     targets = system.targets
     return {
         targets.columns[column]: run_times(times, [targets.published_cap] * len(times))
@@ -99,5 +101,5 @@ def _print_causes(console: Console, rows: Sequence[Row]) -> None:
         console.print(f"not done  {count} of {len(rows)}: {cause}", highlight=False)
 
 
-def _number(value: object, otherwise: float | None) -> float | None:
-    return float(value) if isinstance(value, int | float) else otherwise
+def _number(value: object) -> float | None:
+    return float(value) if isinstance(value, int | float) else None

@@ -75,9 +75,16 @@ def _write_mp4(scene: Scene, frames: Frames, path: Path, title: str, progress: P
     size = tuple(int(side) for side in picture.figure.bbox.size)
     options = ["-crf", "21", "-preset", "veryfast", "-movflags", "+faststart"]
     writer = write_frames(
-        str(path), size, pix_fmt_in="rgba", fps=FRAMES_PER_SECOND, codec="libx264", quality=None,
-        macro_block_size=2, output_params=options, ffmpeg_log_level="error",
-    )  # fmt: skip
+        str(path),
+        size,
+        pix_fmt_in="rgba",
+        fps=FRAMES_PER_SECOND,
+        codec="libx264",
+        quality=None,
+        macro_block_size=2,
+        output_params=options,
+        ffmpeg_log_level="error",
+    )
     writer.send(None)
     try:
         for image in images(picture, frames, np.arange(len(frames.cycle)), progress):

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PathCollection, PolyCollection
 from matplotlib.colors import to_rgba
+from matplotlib.text import Text
 from matplotlib.transforms import AffineDeltaTransform
 
 from formicarium.trial.record import Frames, Scene
@@ -73,8 +74,8 @@ class Overhead:
     def _light(self, lit: np.ndarray) -> None:
         on = np.zeros(len(self._booth_colours), bool)
         on[: len(lit)] = lit[: len(on)] > 0
-        self.booths.set_facecolors(np.where(on[:, None], self._booth_colours, _rgba(PAPER)))
-        self.booth_letters.set_facecolors(np.where(on[:, None], _rgba(PAPER), self._booth_colours))
+        self.booths.set(facecolors=np.where(on[:, None], self._booth_colours, _rgba(PAPER)))
+        self.booth_letters.set(facecolors=np.where(on[:, None], _rgba(PAPER), self._booth_colours))
 
     def _draw_arena(self) -> None:
         points = np.concatenate([polygon.points for polygon in self.scene.polygons])
@@ -106,7 +107,7 @@ class Overhead:
     def _make_moving(self) -> None:
         devices = [polygon for polygon in self.scene.polygons if polygon.colour != "wall"]
         self._booth_colours = np.array([_rgba(colour(device.colour)) for device in devices]).reshape(-1, 4)
-        in_metres = AffineDeltaTransform(self.axes.transData)
+        in_metres = AffineDeltaTransform(self.axes.transData)  # type: ignore[arg-type]
         self.booths = PolyCollection(
             [device.points for device in devices], edgecolors=self._booth_colours, linewidths=2.5, zorder=2
         )
@@ -151,7 +152,7 @@ class Overhead:
         self.side.text(0.05, 5.92, title, size=10.5, color=PALE_INK, va="bottom", linespacing=1.4)
         self.time = self.side.text(0.05, 5.55, "", size=24, color=INK, va="center", weight="bold")
         self.side.text(0.05, 5.18, "minutes : seconds", size=9, color=PALE_INK, va="center")
-        self.counts = []
+        self.counts: list[Text] = []
         for row, (name, style) in enumerate(zip(self.scene.roles, self.styles)):
             self._legend_row(4.6 - 0.42 * row, name, style)
         below = 4.6 - 0.42 * len(self.styles)

@@ -48,11 +48,20 @@ def draw_run_times(
     plain(axes, grid="both")
     runs = max((d.runs for d in measured.values()), default=0)
     targets = [Line2D([], [], color=colours[label], linewidth=3, label=label) for label in colours]
+    counted = f"{runs} simulated run{'s' * (runs != 1)}"
     sources = [
-        Line2D([], [], color=PALE_INK, linewidth=2, label=f"{runs} simulated run{'s' * (runs != 1)}, 95 % band"),
-        Line2D([], [], color=PALE_INK, linewidth=1.4, linestyle="--", marker="o", markersize=4,
-               label=f"published: {published_label}"),
-    ]  # fmt: skip
+        Line2D([], [], color=PALE_INK, linewidth=2, label=f"{counted}, 95 % band"),
+        Line2D(
+            [],
+            [],
+            color=PALE_INK,
+            linewidth=1.4,
+            linestyle="--",
+            marker="o",
+            markersize=4,
+            label=f"published: {published_label}",
+        ),
+    ]
     figure.text(0.095, 0.955, title, size=12, color=INK, weight="bold", va="center")
     style = {"frameon": False, "fontsize": 9.5, "columnspacing": 1.6, "borderaxespad": 0.0}
     figure.legend(
@@ -89,7 +98,7 @@ def _draw_published(axes: Axes, distribution: RunTimes, end: float, colour: str)
 def _steps(
     distribution: RunTimes, values: np.ndarray, before: float, end: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of a step curve from its first rise to the last run's end, or to the edge once all are there."""
+    """Corners of a step curve from its first rise to the end of its runs, or of the axis if all are there."""
     last = end if distribution.reached == distribution.runs else distribution.end
     times = np.concatenate([distribution.times[:1], distribution.times, [last]])
     return times, np.concatenate([[before], values, values[-1:]])

@@ -69,9 +69,17 @@ def _draw_lanes(axes: Axes, timeline: Timeline, roles: tuple[str, ...]) -> None:
         for role in present
     ]
     axes.legend(
-        handles=handles, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(handles), frameon=False,
-        fontsize=9.5, handlelength=1.2, handleheight=0.9, columnspacing=1.4, borderaxespad=0.2,
-    )  # fmt: skip
+        handles=handles,
+        loc="lower right",
+        bbox_to_anchor=(1, 1),
+        ncols=len(handles),
+        frameon=False,
+        fontsize=9.5,
+        handlelength=1.2,
+        handleheight=0.9,
+        columnspacing=1.4,
+        borderaxespad=0.2,
+    )
 
 
 def _draw_marks(axes: Axes, timeline: Timeline, kinds: list[str]) -> None:
