@@ -24,7 +24,10 @@ INTERPRETED = os.environ.get("FORMICARIUM_INTERPRETED", "") not in ("", "0")
 PACKAGE = Path(__file__).parent
 
 # The rooms whose code decides results. Views, commands, campaigns and statistics only look at results.
-DECIDING = ("compiled.py", "streams.py", "physics", "robots", "devices", "control", "observers", "trial", "systems")
+DECIDING = (
+    *("compiled.py", "streams.py", "tables.py", "angles.py"),
+    *("physics", "robots", "devices", "control", "observers", "trial", "systems"),
+)
 
 
 def _python_files(place: Path) -> list[Path]:

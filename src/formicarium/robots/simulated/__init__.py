@@ -1,0 +1,1 @@
+"""Simulated sensors and actuators, one a file. A sensor's docstring is its equation."""

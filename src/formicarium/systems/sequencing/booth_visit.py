@@ -1,0 +1,173 @@
+"""A runner's visit to a booth: in, the infrared exchange, out again, and what it learns (TS-25 to TS-30, TS-45)."""
+
+import math
+
+from formicarium.compiled import compiled
+from formicarium.control.moves import drive, steer, stop
+from formicarium.control.odometry import bearing_to, distance_to
+from formicarium.devices.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
+from formicarium.robots.records import SILENCE
+from formicarium.systems.sequencing.guardian import become_guardian
+from formicarium.systems.sequencing.memory import State, enter
+from formicarium.systems.sequencing.perception import locate_lights
+
+INSIDE = 0.085  # m, nearer than this to where the lights were, the robot is in the bay
+IN_FRONT = 0.125  # m, farther than this from the lights, it is out of the bay
+
+
+@compiled
+def begin_visit(memory, colour, candidate, cycle):
+    """Set out for the booth of a colour, to guard its task afterwards or not."""
+    memory.colour = colour
+    memory.candidate = candidate
+    memory.retries = 0
+    memory.exchange = SILENCE
+    memory.target.known = 0
+    memory.target.seen = cycle
+    memory.watched = 0
+    enter(memory, State.APPROACH, cycle)
+
+
+@compiled
+def unattended(memory, colour, cycle, table):
+    """Tell whether no guardian of the colour has been heard for a while (TS-92)."""
+    return cycle - memory.adverts[colour].heard > table.unattended_after
+
+
+@compiled
+def next_byte(memory, identity):
+    """Return the byte that answers the last one heard from the booth."""
+    if memory.exchange == SILENCE:
+        return HIGH_HALF | identity >> 4
+    if memory.exchange == HEARD_HIGH:
+        return LOW_HALF | identity & 0x0F
+    return CLAIM | (memory.count + 1)
+
+
+@compiled
+def approach(reading, memory, command, table, epuck):
+    """Steer at the booth's lights and into the bay; give up when they stay dark or it takes too long."""
+    cycle = reading.cycle
+    command.infrared = next_byte(memory, reading.identity)
+    lit = locate_lights(reading, memory.target, memory.colour)
+    if reading.infrared != SILENCE:
+        memory.exchange = reading.infrared
+        enter(memory, State.EXCHANGE, cycle)
+        return
+    if memory.candidate == 1 and lit and not unattended(memory, memory.colour, cycle, table):
+        enter(memory, State.WALK, cycle)  # somebody was faster (U28)
+        return
+    distance = distance_to(memory.target)
+    inside = memory.target.known == 1 and distance < INSIDE
+    dark = cycle - memory.target.seen
+    if inside and dark > table.exchange_patience:
+        turn_round(memory, cycle)  # no answer
+        memory.exchange = SILENCE
+        return
+    if (not inside and dark > table.lights_lost_after) or cycle - memory.since > table.approach_patience:
+        enter(memory, State.FOLLOW, cycle)
+        return
+    if memory.target.known == 0:
+        stop(command)
+    elif distance < table.straight_within:
+        drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
+    else:
+        bearing = bearing_to(memory.target)
+        steer(command, bearing, table.approach_speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
+
+
+@compiled
+def turn_round(memory, cycle):
+    """Begin to turn by half a circle."""
+    memory.turn_left = math.pi
+    enter(memory, State.TURN_ROUND, cycle)
+
+
+@compiled
+def take_verdict(memory, cycle, success, table):
+    """Learn from the verdict (TS-104): what to report, and how many tasks are done now."""
+    memory.verdict = 1 if success else 0
+    memory.verdict_heard = cycle
+    memory.last_success = memory.colour if success else 0
+    memory.reported = memory.count + 1 if success else memory.count
+    if memory.candidate == 0:
+        memory.count = (memory.count + 1) % table.tasks if success else 0
+        memory.notifying = 1
+
+
+@compiled
+def exchange(reading, memory, command, table):
+    """Wait in the bay for the verdict, answering the booth's bytes."""
+    cycle = reading.cycle
+    if reading.infrared != SILENCE:
+        memory.exchange = reading.infrared
+    command.infrared = next_byte(memory, reading.identity)
+    if memory.exchange == SUCCESS or memory.exchange == FAILURE:
+        take_verdict(memory, cycle, memory.exchange == SUCCESS, table)
+        turn_round(memory, cycle)
+    elif cycle - memory.since > table.exchange_patience:
+        memory.exchange = SILENCE
+        turn_round(memory, cycle)
+
+
+@compiled
+def turning_round(reading, memory, command, table, epuck):
+    """Turn on the spot, then leave: as future guardian, as visitor, or to try again."""
+    memory.turn_left -= memory.odometer.turn
+    if memory.turn_left > 0.0:
+        drive(command, 0.0, table.turn_rate, epuck.wheel_distance)
+        return
+    done = memory.exchange == SUCCESS or memory.exchange == FAILURE
+    enter(memory, State.STAND_OFF if done and memory.candidate == 1 else State.LEAVE, reading.cycle)
+
+
+@compiled
+def leave(reading, memory, command, table, epuck):
+    """Drive out of the bay until its lights are on behind the robot: steps alone do not tell a blocked robot."""
+    cycle = reading.cycle
+    drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
+    lit = locate_lights(reading, memory.target, memory.colour)
+    out = lit and distance_to(memory.target) >= IN_FRONT
+    if memory.travelled < table.leave_distance or not (out or cycle - memory.since > table.exit_patience):
+        return
+    memory.inhibiting_until = cycle + table.inhibition_memory
+    if memory.exchange != SILENCE:
+        enter(memory, State.FOLLOW, cycle)
+        memory.chain_seen = cycle
+    elif memory.retries < table.retries:
+        memory.retries += 1
+        enter(memory, State.PAUSE, cycle)
+    else:
+        enter(memory, State.WALK, cycle)
+
+
+@compiled
+def stand_off(reading, memory, command, table, epuck):
+    """Drive straight out to the guardian's place, measured by the booth's lights (TS-45, U27)."""
+    cycle = reading.cycle
+    if not unattended(memory, memory.colour, cycle, table):
+        memory.count = memory.reported % table.tasks if memory.verdict == 1 else 0
+        memory.candidate = 0  # somebody guards it already (U29)
+        enter(memory, State.LEAVE, cycle)
+        return
+    drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
+    lit = locate_lights(reading, memory.target, memory.colour)
+    there = lit and distance_to(memory.target) >= table.exit_distance + table.lights_depth
+    overshot = memory.travelled > 2.0 * table.exit_distance and cycle - memory.target.seen > table.lights_lost_after
+    if there or overshot or cycle - memory.since > table.exit_patience:
+        become_guardian(memory, cycle, memory.verdict == 1, memory.count + 1)
+
+
+@compiled
+def pause(reading, memory, command, table, epuck):
+    """Stand outside for a while, then turn round and enter again (TS-25, U30)."""
+    stop(command)
+    if reading.cycle - memory.since < table.retry_pause:
+        return
+    memory.turn_left -= memory.odometer.turn
+    if memory.turn_left <= -math.pi:
+        retries = memory.retries
+        begin_visit(memory, memory.colour, memory.candidate, reading.cycle)
+        memory.retries = retries
+    else:
+        drive(command, 0.0, table.turn_rate, epuck.wheel_distance)

@@ -1,0 +1,312 @@
+"""What is measured in a sequencing trial: events as they happen, one outcome row at the end (TS-136 to TS-138)."""
+
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from formicarium.compiled import compiled
+from formicarium.devices.booth import BAY_END, BAY_HALF_WIDTH, HALF
+from formicarium.devices.infrared import SUCCESS
+from formicarium.observers.referee import executed, locate
+from formicarium.systems.sequencing.memory import Role
+from formicarium.trial.events import write_event
+
+DISPLACED = 0.06  # m, a chain member pushed this far from where it settled is logged once
+
+
+class EventKind(IntEnum):
+    """What the log tells; ``robot`` is always the identity of the robot concerned, 0 for none."""
+
+    ROLE = 0  # subject: task colour (guardian) or branch (tail, link); value: new role; detail: old role
+    VISIT = 1  # subject: booth's colour; value: 1 came in, 0 went out
+    EXECUTED = 2  # subject: task colour; value: 1 success, 0 failure; detail: claimed task number
+    SEQUENCE = 3  # value: how many correct sequences the swarm has done
+    CONDITION = 4  # subject: task colour; value: CND; detail: CONF of its guardian
+    BRANCH = 5  # subject: branch that reached its guardian; value: its links
+    CHAIN = 6  # all branches established; value: guardians + links + tails
+    DISPLACED = 7  # a settled chain member was pushed off; subject: as in ROLE; value: role
+    DIED = 8  # value: role
+    NO_ANSWER = 9  # a visit whose infrared exchange failed; subject: booth's colour
+    PROTOCOL_FAULT = 10  # the coordinator's record and a claim disagreed; subject: colour; value: claim
+    DISAGREEMENT = 11  # referee and booth disagree about an execution; subject: colour
+    UNFOUNDED = 12  # a guardian learnt from a runner that did not do its task last; subject: colour
+    STATE = 13  # value: new state; detail: old state (on request)
+    MESSAGE = 14  # subject: bytes as one number; value: mask of emitters (on request)
+
+
+# What the chain monitor knows of each robot since the last cycle.
+MEMBER = np.dtype(
+    [
+        ("role", "i8"),
+        ("state", "i8"),
+        ("established", "i8"),
+        ("condition", "i8"),
+        ("confident", "i8"),
+        ("settled", "i8"),  # 1 while its place below is the one to keep
+        ("x", "f8"),  # m
+        ("y", "f8"),
+        ("dead", "i8"),
+    ],
+    align=True,
+)
+
+CHAIN = np.dtype(
+    [
+        ("sequences", "i8"),  # correct sequences by the referee
+        ("goal", "i8"),  # sequences that end the trial
+        ("faults", "i8"),  # coordinator's faults already logged
+        ("complete", "i8"),  # cycle at which the chain was complete, 0 if not yet
+        ("members_complete", "i8"),  # chain members then
+        ("visits", "i8", 8),  # per booth: cycle at which the visit in progress began, 0 if none
+    ],
+    align=True,
+)
+
+
+@compiled
+def note(state):
+    """Write down what has happened in this cycle. Nothing here is seen by a robot."""
+    note_tasks(state)
+    note_robots(state)
+    clock = state.clock[0]
+    if state.chain[0].sequences >= state.swarm[0].sequences:
+        clock.finished = 1
+
+
+@compiled
+def note_tasks(state):
+    """Log visits and executions; let the referee judge by physical presence and count sequences."""
+    clock = state.clock[0]
+    chain = state.chain[0]
+    cycle = clock.cycle
+    task_cycles = int(state.booth_table[0].task_time / state.world.settings[0].cycle_time + 0.5)
+    for i in range(len(state.robots)):
+        locate(state.referee[i], state.world.bodies[i], state.booths, HALF, BAY_HALF_WIDTH, BAY_END, cycle)
+    for b in range(len(state.booths)):
+        booth = state.booths[b]
+        visiting = booth.occupied == 1
+        if visiting != (chain.visits[b] > 0):
+            who = state.robots[booth.visitor].identity if visiting else 0
+            write_event(clock, state.events, EventKind.VISIT, who, booth.colour, 1 if visiting else 0, 0)
+            if visiting and booth.mute == 1:
+                write_event(clock, state.events, EventKind.NO_ANSWER, who, booth.colour, 0, 0)
+            chain.visits[b] = cycle + 1 if visiting else 0
+        if visiting and booth.verdict != 0 and booth.judged == cycle:
+            note_execution(state, b, task_cycles)
+
+
+@compiled
+def note_execution(state, b, task_cycles):
+    """Log one execution and compare the booth's verdict with what the referee saw."""
+    clock = state.clock[0]
+    chain = state.chain[0]
+    booth = state.booths[b]
+    i = booth.visitor
+    who = state.robots[i].identity
+    record = state.referee[i]
+    success = booth.verdict == SUCCESS
+    write_event(clock, state.events, EventKind.EXECUTED, who, booth.colour, 1 if success else 0, booth.claim)
+    coordinator = state.coordinator[0]
+    if coordinator.faults > chain.faults:
+        chain.faults = coordinator.faults
+        write_event(clock, state.events, EventKind.PROTOCOL_FAULT, who, booth.colour, booth.claim, 0)
+    present = record.booth == b and clock.cycle - record.since >= task_cycles
+    complete = executed(record, booth.colour, coordinator.order, coordinator.tasks)
+    claimed = success and booth.claim == coordinator.tasks
+    if not present or complete != claimed:
+        write_event(clock, state.events, EventKind.DISAGREEMENT, who, booth.colour, 0, 0)
+    own_first = state.memories[i].candidate == 1  # a future guardian's own execution never counts (TS-137)
+    if complete and present and not own_first:
+        chain.sequences += 1
+        write_event(clock, state.events, EventKind.SEQUENCE, who, 0, chain.sequences, 0)
+
+
+@compiled
+def note_robots(state):
+    """Log changes of role, guardians' learning, branches, displacements and deaths."""
+    clock = state.clock[0]
+    for i in range(len(state.robots)):
+        robot = state.robots[i]
+        memory = state.memories[i]
+        member = state.members[i]
+        who = robot.identity
+        subject = memory.colour if memory.role == Role.GUARDIAN else memory.branch
+        if robot.alive == 0 and member.dead == 0:
+            member.dead = 1
+            write_event(clock, state.events, EventKind.DIED, who, subject, memory.role, 0)
+        if memory.role != member.role:
+            write_event(clock, state.events, EventKind.ROLE, who, subject, memory.role, member.role)
+            member.settled = 0
+        if memory.role == Role.GUARDIAN:
+            note_guardian(state, i)
+        if memory.role == Role.GUARDIAN or (memory.role == Role.LINK and memory.established == 1):
+            note_place(state, i, subject)
+        if state.swarm[0].log_states == 1 and memory.state != member.state:
+            write_event(clock, state.events, EventKind.STATE, who, 0, memory.state, member.state)
+        if state.swarm[0].log_messages == 1:
+            note_messages(state, i)
+        member.role = memory.role
+        member.state = memory.state
+        member.established = memory.established
+        member.condition = memory.condition
+        member.confident = memory.confident
+
+
+@compiled
+def note_guardian(state, i):
+    """Log what a guardian has learnt, from whom, and the branch that has reached it."""
+    clock = state.clock[0]
+    memory = state.memories[i]
+    member = state.members[i]
+    who = state.robots[i].identity
+    new = member.role != Role.GUARDIAN
+    if new or memory.condition != member.condition or memory.confident != member.confident:
+        write_event(
+            clock, state.events, EventKind.CONDITION, who, memory.colour, memory.condition, memory.confident
+        )
+        if not new and not founded(state, memory.notified_by, memory.colour):
+            write_event(clock, state.events, EventKind.UNFOUNDED, who, memory.colour, memory.notified_by, 0)
+    if memory.established == 1 and member.established == 0:
+        links = 0
+        members = 0
+        for j in range(len(state.memories)):
+            other = state.memories[j]
+            if other.role != Role.RUNNER:
+                members += 1
+            if other.role == Role.LINK or other.role == Role.TAIL:
+                links += 1 if other.branch == memory.branch - 1 else 0
+        write_event(clock, state.events, EventKind.BRANCH, who, memory.branch - 1, links, 0)
+        if memory.branch == state.behaviour[0].tasks:
+            write_event(clock, state.events, EventKind.CHAIN, who, 0, members, 0)
+            state.chain[0].complete = clock.cycle
+            state.chain[0].members_complete = members
+
+
+@compiled
+def founded(state, identity, colour):
+    """Tell whether the robot of that identity did that task last."""
+    for j in range(len(state.robots)):
+        if state.robots[j].identity == identity:
+            return state.referee[j].last == colour
+    return False
+
+
+@compiled
+def note_place(state, i, subject):
+    """Remember where a guardian or an established link stands; log it once when it is pushed away."""
+    member = state.members[i]
+    body = state.world.bodies[i]
+    if member.settled == 0:
+        member.settled = 1
+        member.x = body.x
+        member.y = body.y
+    elif member.settled == 1:
+        dx = body.x - member.x
+        dy = body.y - member.y
+        if dx * dx + dy * dy > DISPLACED * DISPLACED:
+            member.settled = 2
+            who = state.robots[i].identity
+            role = state.memories[i].role
+            write_event(state.clock[0], state.events, EventKind.DISPLACED, who, subject, role, 0)
+
+
+@compiled
+def note_messages(state, i):
+    """Log the bytes a robot sends, once for each different content, with the emitters that carry it."""
+    command = state.commands[i]
+    done = 0
+    for k in range(len(command.enabled)):
+        if command.enabled[k] == 0 or done >> k & 1:
+            continue
+        content = packed(command.payload[k])
+        mask = 0
+        for other in range(k, len(command.enabled)):
+            if command.enabled[other] == 1 and packed(command.payload[other]) == content:
+                mask |= 1 << other
+        done |= mask
+        write_event(state.clock[0], state.events, EventKind.MESSAGE, state.robots[i].identity, content, mask, 0)
+
+
+@compiled
+def packed(payload):
+    """Return four bytes as one number, DATA[0] highest."""
+    return int(payload[0]) << 24 | int(payload[1]) << 16 | int(payload[2]) << 8 | int(payload[3])
+
+
+def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
+    """Return the row of a finished trial: what was reached when, by how many, and if it failed, why.
+
+    Times are in seconds, None if not reached.
+    """
+    cycle_time = float(state.world.settings[0].cycle_time)
+    chain = state.chain[0]
+
+    def time_of(kind: EventKind, value: int | None = None) -> float | None:
+        chosen = events[(events["kind"] == kind) & (True if value is None else events["value"] == value)]
+        return round(float(chosen["cycle"][0] + 1) * cycle_time, 6) if len(chosen) else None
+
+    def number_of(kind: EventKind, **fields: int) -> int:
+        chosen = events["kind"] == kind
+        for name, value in fields.items():
+            chosen = chosen & (events[name] == value)
+        return int(chosen.sum())
+
+    roles = state.memories.role
+    goal = int(state.swarm[0].sequences)
+    success = bool(chain.sequences >= goal)
+    row: dict[str, int | float | str | None] = {
+        "success": int(success),
+        "sequences": int(chain.sequences),
+        "time_chain_s": time_of(EventKind.CHAIN),
+        "time_1_s": time_of(EventKind.SEQUENCE, 1),
+        "time_5_s": time_of(EventKind.SEQUENCE, 5),
+        "time_10_s": time_of(EventKind.SEQUENCE, 10),
+        "duration_s": round(float(state.clock[0].cycle) * cycle_time, 6),
+        "members_at_completion": int(chain.members_complete) if chain.complete else None,
+        "members": int((roles != Role.RUNNER).sum()),
+        "guardians": int((roles == Role.GUARDIAN).sum()),
+        "links": int((roles == Role.LINK).sum()),
+        "tails": int((roles == Role.TAIL).sum()),
+        "branches": number_of(EventKind.BRANCH),
+        "executions": number_of(EventKind.EXECUTED),
+        "failures": number_of(EventKind.EXECUTED, value=0),
+        "displaced": number_of(EventKind.DISPLACED),
+        "died": number_of(EventKind.DIED),
+        "no_answers": number_of(EventKind.NO_ANSWER),
+        "protocol_faults": number_of(EventKind.PROTOCOL_FAULT),
+        "disagreements": number_of(EventKind.DISAGREEMENT),
+        "unfounded": number_of(EventKind.UNFOUNDED),
+    }
+    row["cause"] = None if success else cause(row, events, len(state.robots), int(state.behaviour[0].tasks), cycle_time)
+    return row
+
+
+STALLED = 600.0  # s without a new sequence at the end of a trial count as a standstill
+
+
+def cause(
+    row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycle_time: float
+) -> str:
+    """Name why a trial failed, from its event log: the first of these that applies."""
+    free = robots - row["members"] - row["died"]
+    if row["guardians"] < tasks:
+        return "a task found no guardian"
+    if row["guardians"] > tasks:
+        return "two guardians for one task"
+    if row["time_chain_s"] is None:
+        if free <= 0:
+            return "all robots in an unfinished chain"
+        return f"branch {row['branches'] + 1} missed its guardian"
+    if free <= 0:
+        return "all robots in the finished chain"
+    sequences = events[events["kind"] == EventKind.SEQUENCE]
+    last = float(sequences["cycle"][-1]) * cycle_time if len(sequences) else row["time_chain_s"]
+    if row["duration_s"] - last < STALLED:
+        return "too slow"
+    moved = events[events["kind"] == EventKind.DISPLACED]
+    if (moved["value"] == Role.GUARDIAN).any():
+        return "guardian displaced"
+    if len(moved):
+        return "link displaced"
+    return "runners stuck"

@@ -1,0 +1,128 @@
+"""What one robot of the sequencing swarm remembers: roles, states, and everything it has learnt by itself."""
+
+from enum import IntEnum
+
+import numpy as np
+
+from formicarium.compiled import compiled
+from formicarium.control.odometry import ODOMETER, TRACK
+from formicarium.robots.records import PACKETS
+from formicarium.systems.sequencing.messages import MESSAGE
+
+COLOURS = 5  # task colours are 1..4; place 0 stays empty
+NEVER = -1_000_000  # cycle long before the trial
+
+
+class Role(IntEnum):
+    """The four roles of the paper."""
+
+    RUNNER = 0
+    GUARDIAN = 1
+    TAIL = 2
+    LINK = 3
+
+
+class State(IntEnum):
+    """The states within the roles."""
+
+    # runner
+    WALK = 0  # random walk, straight on
+    TURN = 1  # random walk, turning on the spot
+    FOLLOW = 2  # along the chain
+    APPROACH = 3  # towards a booth and into it
+    EXCHANGE = 4  # in the bay, waiting for the verdict
+    TURN_ROUND = 5  # in the bay, turning towards the mouth
+    LEAVE = 6  # a visitor on its way out
+    STAND_OFF = 7  # a future guardian on its way out
+    PAUSE = 8  # outside, before entering again
+    JOIN = 9  # has asked to become the tail
+    INHIBITED = 10  # keeps clear of a task
+    # tail, and guardian acting as one
+    POSITION = 11  # takes its distance to the predecessor
+    OPEN = 12  # invites a successor
+    OFFER = 13  # has chosen one
+    SWEEP = 14  # moves the branch's tip to the left
+    DOCK = 15  # aligns with a guardian
+    # link, and guardian that is no tail
+    STAY = 16
+
+
+# What a robot has heard of one task's guardian.
+ADVERT = np.dtype(
+    [
+        ("heard", "i8"),  # cycle
+        ("bearing", "f8"),  # rad
+        ("identity", "i8"),
+        ("branch", "i8"),
+        ("in_chain", "i8"),
+        ("established", "i8"),
+        ("tail", "i8"),
+        ("count", "i8"),  # CND
+        ("confident", "i8"),
+    ],
+    align=True,
+)
+
+MEMORY = np.dtype(
+    [
+        ("draws", "u8"),  # the robot's own random stream
+        ("role", "i8"),
+        ("state", "i8"),
+        ("since", "i8"),  # cycle at which the state began
+        ("odometer", ODOMETER),
+        # hearing
+        ("message", MESSAGE),  # being written
+        ("heard", MESSAGE, PACKETS),  # this cycle's packets, decoded
+        ("adverts", ADVERT, COLOURS),  # by task colour
+        ("inhibitor", "i8"),  # identity of the robot whose inhibition was heard last
+        ("inhibition_heard", "i8"),  # cycle
+        # runner
+        ("count", "i8"),  # CNT
+        ("turn_left", "f8"),  # rad still to turn
+        ("travelled", "f8"),  # m since the state began
+        ("chain_seen", "i8"),  # cycle at which a chain member was seen last
+        ("colour", "i8"),  # task approached, being done or guarded
+        ("candidate", "i8"),  # 1 if it goes on to guard that task
+        ("watched", "i8"),  # task colour in view whose guardian is not heard
+        ("watched_since", "i8"),  # cycle
+        ("target", TRACK),  # the booth's lights
+        ("exchange", "i8"),  # last byte heard from the booth
+        ("retries", "i8"),
+        ("verdict", "i8"),  # 1 success, 0 failure of the last task
+        ("reported", "i8"),  # CNT that goes into the notification
+        ("notifying", "i8"),  # 1 while a notification is due
+        ("verdict_heard", "i8"),  # cycle
+        ("last_success", "i8"),  # colour of the task just done with success
+        ("inhibiting_until", "i8"),  # cycle; sends inhibitions until then
+        ("refuse_until", "i8"),  # cycle; ignores invitations until then
+        ("wander_until", "i8"),  # cycle; ignores chain and inhibition until then
+        # chain member
+        ("branch", "i8"),  # BRN
+        ("link_number", "i8"),  # LNK_NO
+        ("established", "i8"),  # EST
+        ("predecessor", TRACK),
+        ("successor", TRACK),
+        ("chosen", "i8"),  # identity of the runner, or guardian, chosen as successor
+        ("requested", "i8"),  # cycle of the last request, or of the last sweep
+        ("sweep_due", "i8"),  # cycles after ``requested`` at which to sweep
+        ("settled", "i8"),  # cycle since which it is in place
+        # guardian
+        ("tail", "i8"),  # 1 while it acts as tail
+        ("in_chain", "i8"),
+        ("condition", "i8"),  # CND
+        ("confident", "i8"),  # CONF
+        ("notified_by", "i8"),  # identity of the runner whose notification changed CND or CONF last
+        ("restarts", "i8"),  # how often CND had to start again at 1 (TS-61)
+        ("echoed", "i8"),  # identity whose inhibition it repeats
+        ("echo_until", "i8"),  # cycle
+    ],
+    align=True,
+)
+
+
+@compiled
+def enter(memory, state, cycle):
+    """Begin a state."""
+    memory.state = state
+    memory.since = cycle
+    memory.travelled = 0.0

@@ -1,0 +1,196 @@
+"""Every number of the sequencing system, with unit, bounds and reason.
+
+[paper]: Garattoni & Birattari, "Autonomous task sequencing in a robot swarm", Science Robotics 3 (2018).
+U.., TS-..: numbered choices where the paper is silent. [tuned]: found by calibration, see docs/results/.
+"""
+
+import math
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from formicarium.devices.booth import BoothTable
+from formicarium.robots.epuck import Epuck
+from formicarium.tables import Table, number
+
+
+def degrees(value: float) -> float:
+    """Return an angle given in degrees in radians."""
+    return math.radians(value)
+
+
+class ArenaTable(Table):
+    """The walls and where the booths stand."""
+
+    tasks: int = number(3, "1", "m, number of tasks and booths [paper]", ge=2, le=4)
+    sides: int = number(6, "1", "of the regular polygon; booths stand on every second side [paper]", ge=4, le=8)
+    side: float = number(0.9, "m", "length of a side [paper, Table 1]", gt=0.3, le=10)
+    tam_offset: float = number(
+        0.0, "m", "how far a booth's mouth stands inside the wall line: 0 flush, 0.12 all inside [choice TS-36]", ge=0, le=0.12
+    )
+    wall_friction: float = number(0.1, "1", "[model]", ge=0)
+    turn: float = number(0.0, "rad", "the whole arena is turned by this (for tests)")
+    shift_x: float = number(0.0, "m", "and shifted by this (for tests)")
+    shift_y: float = number(0.0, "m", "and this (for tests)")
+
+    @model_validator(mode="after")
+    def booths_fit(self) -> "ArenaTable":
+        """Require two sides a booth."""
+        if self.sides != 2 * self.tasks:
+            raise ValueError(f"sides must be twice the number of tasks: {self.tasks} tasks need {2 * self.tasks} sides")
+        return self
+
+
+class SwarmTable(Table):
+    """How many robots, how long, and which of them die."""
+
+    robots: int = number(20, "1", "N [paper, Table 1]", ge=1, le=255)
+    time_cap: float = number(2400.0, "s", "TC, the trial ends here at the latest [paper, Table 1]", gt=0, le=1e6)
+    sequences: int = number(10, "1", "the trial ends when so many are complete [paper]", ge=1, le=100_000)
+    failure_rate: float = number(
+        0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0
+    )
+    log_messages: bool = number(False, "1", "log every packet sent (large)")
+    log_states: bool = number(False, "1", "log every change of a robot's state (large)")
+
+
+class BehaviourTable(Table):
+    """The controller's numbers: the same for every robot, variant and setting (TS-3)."""
+
+    tasks: int = number(3, "1", "m, how far the robots count [paper]", ge=2, le=4)
+
+    # random walk
+    walk_speed: float = number(0.08, "m/s", "U2", gt=0)
+    walk_turn_probability: float = number(0.01, "1/cycle", "U2", ge=0, le=1)
+    walk_turn_least: float = number(degrees(30), "rad", "U2", ge=0)
+    walk_turn_most: float = number(degrees(150), "rad", "U2", ge=0)
+    obstacle_value: float = number(0.15, "1", "proximity at which a walking robot turns; U2 says 0.1, noise is 0.05", ge=0)
+    turn_rate: float = number(2.0, "rad/s", "of turns on the spot", gt=0)
+    steering_gain: float = number(3.0, "1/s", "turn rate per heading error", gt=0)
+
+    # runner
+    unattended_after: int = number(20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1)
+    unattended_watch: int = number(5, "cycles", "and its booth must have been in sight for so long [choice]", ge=0)
+    follow_speed: float = number(0.03, "m/s", "U3 [tuned on chain time]", gt=0)
+    follow_distance: float = number(0.11, "m", "d-bar, kept to the reference point TS-98", gt=0)
+    radial_gain: float = number(1.5, "1", "TS-96", gt=0)
+    literal_line: bool = number(False, "1", "do not clamp the foot of the perpendicular to the segment TS-97")
+    repulsion_value: float = number(0.3, "1", "proximity above which a following robot is pushed off U44", ge=0)
+    repulsion_weight: float = number(0.5, "1", "U44", ge=0)
+    lost_after: int = number(20, "cycles", "a runner that sees no chain for so long walks at random U34", ge=1)
+    decide_distance: float = number(0.30, "m", "a runner heeds the guardian within this TS-100", gt=0)
+    advert_memory: int = number(10, "cycles", "an advertisement counts for so long [choice]", ge=1)
+    advert_gate: float = number(0.5, "rad", "bearing difference at which packet and light are one robot [probe]", gt=0)
+    approach_speed: float = number(0.04, "m/s", "into the booth U24 [probe]", gt=0)
+    approach_patience: int = number(200, "cycles", "then a runner gives up TS-107", ge=1)
+    lights_lost_after: int = number(25, "cycles", "an approach whose lights are dark for so long is over [probe]", ge=1)
+    straight_within: float = number(0.10, "m", "of the lights a robot drives straight on [probe]", gt=0)
+    exchange_patience: int = number(100, "cycles", "a robot in the bay waits so long for the verdict [choice]", ge=1)
+    retry_pause: int = number(30, "cycles", "before it enters again after a failed exchange U30", ge=0)
+    retries: int = number(3, "1", "U30", ge=0)
+    leave_distance: float = number(0.10, "m", "a visitor drives so far out of the bay U26", gt=0)
+    exit_distance: float = number(0.25, "m", "a future guardian drives so far out [paper]", gt=0)
+    lights_depth: float = number(0.035, "m", "of a booth's lights behind its middle [model]", ge=0)
+    exit_patience: int = number(600, "cycles", "a future guardian that is blocked so long stays where it is [choice]", ge=1)
+    notify_patience: int = number(300, "cycles", "a runner repeats its notification at most so long [probe]", ge=1)
+    notify_least: int = number(30, "cycles", "and at least so long U54", ge=0)
+    notification_gate: float = number(0.45, "m", "a guardian hears notifications within this [choice, T15]", gt=0)
+
+    # inhibition
+    inhibition_distance: float = number(0.40, "m", "TS-106", ge=0)
+    inhibition_memory: int = number(30, "cycles", "inhibited robots resume after so long without a message TS-106", ge=1)
+    inhibition_leave: float = number(0.2, "1", "probability to leave instead TS-106", ge=0, le=1)
+    inhibition_clearance: float = number(0.25, "m", "an inhibited robot backs off to this TS-106", ge=0)
+    inhibition_echo: int = number(10, "cycles", "a guardian repeats an inhibition for so long [choice]", ge=0)
+
+    # joining the chain
+    join_distance: float = number(0.25, "m", "a runner answers an invitation within this TS-82", gt=0)
+    request_patience: int = number(30, "cycles", "TS-82", ge=1)
+    refuse_time: int = number(100, "cycles", "then it ignores invitations for so long TS-82", ge=0)
+    offer_patience: int = number(30, "cycles", "TS-82", ge=1)
+    sector_half_width: float = number(degrees(30), "rad", "of the invited sector U10", gt=0)
+    sector_tolerance: float = number(degrees(25), "rad", "a request must come from the sector, give or take this [probe]", ge=0)
+
+    # chain members
+    spacing: float = number(0.17, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
+    spacing_tolerance: float = number(0.05, "m", "[paper]", ge=0)
+    alignment_tolerance: float = number(degrees(10), "rad", "[paper]", ge=0)
+    member_speed: float = number(0.04, "m/s", "largest speed of links and tails TS-74", gt=0)
+    track_gate: float = number(0.07, "m", "a blob this near to where a neighbour should be is that neighbour [probe]", gt=0)
+    track_gain: float = number(0.35, "1", "share of the new sighting in a neighbour's place [probe]", gt=0, le=1)
+    track_refind: int = number(5, "cycles", "a neighbour unseen so long is looked for by its packets [probe]", ge=1)
+    track_lost: int = number(20, "cycles", "a link that has not seen a neighbour for so long stands still [choice]", ge=1)
+    refind_gate: float = number(degrees(20), "rad", "bearing gate between packet and blob TS-73", gt=0)
+
+    # tail
+    position_band: float = number(0.02, "m", "dead band of the tail's distance servo [probe]", ge=0)
+    position_hold: int = number(10, "cycles", "in place so long before it invites TS-77", ge=0)
+    sweep_idle: int = number(200, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
+    sweep_burst: int = number(10, "cycles", "U13 [tuned]", ge=1)
+    sweep_pause: int = number(50, "cycles", "U13", ge=0)
+    sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
+    dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
+    dock_gaps: float = number(0.40, "m", "if both gaps add up to more, recruit one more U21", gt=0)
+    dock_band: float = number(0.02, "m", "tolerance of the gaps while docking [probe]", ge=0)
+    dock_hold: int = number(10, "cycles", "aligned so long, then it hands over U20", ge=0)
+    dock_patience: int = number(200, "cycles", "or it hands over anyway [probe]", ge=1)
+    cnd_monotone: bool = number(True, "1", "a late notification does not lower CND TS-60")
+
+
+class PhysicsTable(Table):
+    """The flat world's solver."""
+
+    cycle_time: float = number(0.1, "s", "control period [paper]", gt=0, le=1)
+    substeps: int = number(10, "1", "physics steps a cycle [model]", ge=1, le=100)
+    iterations: int = number(10, "1", "of the contact solver [model]", ge=1, le=100)
+
+
+class SequencingParameters(BaseModel):
+    """All of one trial's numbers but its seed."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    arena: ArenaTable = Field(default_factory=ArenaTable)
+    swarm: SwarmTable = Field(default_factory=SwarmTable)
+    epuck: Epuck = Field(default_factory=Epuck)
+    booth: BoothTable = Field(default_factory=BoothTable)
+    behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
+    physics: PhysicsTable = Field(default_factory=PhysicsTable)
+
+    @model_validator(mode="after")
+    def same_tasks(self) -> "SequencingParameters":
+        """Let the robots count as far as there are booths."""
+        if self.behaviour.tasks != self.arena.tasks:
+            raise ValueError(
+                f"behaviour.tasks is {self.behaviour.tasks} but arena.tasks is {self.arena.tasks}: they must be equal"
+            )
+        return self
+
+
+# Table 1 of the paper: settings 0..4 of Mark I3. Side = base * sqrt(2)^k unrounded (TS-34); robots and time
+# cap as printed (contradiction C2).
+MARK_I3_ROBOTS = (20, 28, 40, 57, 80)
+MARK_I3_TIME_CAPS = (2400.0, 3400.0, 4800.0, 6800.0, 9600.0)
+HEXAGON_SIDE = 0.9
+
+
+def mark_i3_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
+    """Return the parameters of Mark I3 in one of the paper's settings.
+
+    Args:
+        setting: 0..4, the row of Table 1; each doubles the area. None means 0.
+        robots: number of robots; None means the paper's default for the setting.
+        groups: fields to change, by group: ``behaviour={"spacing": 0.15}``.
+
+    Raises:
+        ValueError: if a number is out of bounds or the setting does not exist.
+    """
+    k = 0 if setting is None else setting
+    if k not in range(len(MARK_I3_ROBOTS)):
+        raise ValueError(f"setting {setting} does not exist: mark-i3 has settings 0 to {len(MARK_I3_ROBOTS) - 1}")
+    arena = {"side": HEXAGON_SIDE * math.sqrt(2.0) ** k}
+    swarm = {"robots": MARK_I3_ROBOTS[k] if robots is None else robots, "time_cap": MARK_I3_TIME_CAPS[k]}
+    tables = {"arena": arena, "swarm": swarm}
+    for group, fields in groups.items():
+        tables[group] = {**tables.get(group, {}), **fields}
+    return SequencingParameters.model_validate(tables)

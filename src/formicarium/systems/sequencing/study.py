@@ -1,0 +1,119 @@
+"""The sequencing experiments as systems that can be run: Mark I3."""
+
+import csv
+from collections.abc import Callable
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from formicarium.systems.registry import System, Targets
+from formicarium.systems.sequencing.arena import make_arena
+from formicarium.systems.sequencing.loop import run
+from formicarium.systems.sequencing.measures import EventKind, outcome
+from formicarium.systems.sequencing.memory import Role
+from formicarium.systems.sequencing.parameters import SequencingParameters, mark_i3_parameters
+from formicarium.systems.sequencing.setup import SequencingState, begin
+from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
+from formicarium.trial.simulate import LOOK, Album, simulate
+
+ROLES = ("runner", "guardian", "link", "tail", "dead")  # as frames number them
+FRAME_ROLE = {Role.RUNNER: 0, Role.GUARDIAN: 1, Role.LINK: 2, Role.TAIL: 3}
+DEAD = 4
+TASKS = ("", "red", "green", "blue", "orange")
+
+
+def frame_roles(state: SequencingState) -> np.ndarray:
+    """Return every robot's role as frames number them."""
+    roles = np.array([FRAME_ROLE[Role(int(role))] for role in state.memories.role])
+    return np.where(state.robots.alive == 1, roles, DEAD)
+
+
+def scene_of(parameters: SequencingParameters, state: SequencingState) -> Scene:
+    """Return what stands still: the walls and the booths in their colours."""
+    arena = make_arena(parameters.arena, parameters.booth.friction)
+    polygons = [Polygon(arena.corners, "wall")]
+    for k, booth in enumerate(state.booths):
+        own = arena.segments[arena.segments.group == k + 1]
+        polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), TASKS[int(booth.colour)]))
+    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.physics.cycle_time)
+
+
+def run_trial(
+    parameters: SequencingParameters,
+    seed: int,
+    *,
+    frames_every: float | None = None,
+    watch: Callable[[float, float], None] | None = None,
+) -> Trial:
+    """Run one trial.
+
+    Args:
+        parameters: all its numbers.
+        seed: decides everything that is random.
+        frames_every: seconds between two frames, None for no frames.
+        watch: called now and then with (seconds simulated, seconds at most).
+    """
+    state = begin(parameters, seed)
+    look = LOOK if frames_every is None else max(1, round(frames_every / parameters.physics.cycle_time))
+    album = Album(state, frame_roles, lambda state: state.memories["count"])
+    take = None if frames_every is None else lambda state: album.take(state, state.booths.occupied == 0)
+    events = simulate(run, state, look=look, after_look=take, watch=watch)
+    row: dict[str, Any] = {"seed": seed, "robots": parameters.swarm.robots, "side_m": parameters.arena.side}
+    row |= {"order": "".join(TASKS[int(c)][0].upper() for c in state.coordinator[0].order[: parameters.arena.tasks])}
+    frames: Frames | None = album.frames() if frames_every is not None else None
+    return Trial(row | outcome(state, events), events, frames, scene_of(parameters, state))
+
+
+def timeline(trial: Trial) -> Timeline:
+    """Return who was what when, chain events and failures as marks, and the times of correct sequences."""
+    events, cycle_time = trial.events, trial.scene.cycle_time
+    end = float(trial.outcome["duration_s"] or 0.0)
+    changes = events[np.isin(events["kind"], (EventKind.ROLE, EventKind.DIED))]
+    identities = sorted({int(robot) for robot in trial.events["robot"]} - {0})
+    if trial.frames is not None:
+        identities = sorted(int(robot) for robot in trial.frames.identity)
+    spans = []
+    for lane, identity in enumerate(identities):
+        role, start = 0, 0.0
+        for event in changes[changes["robot"] == identity]:
+            time = float(event["cycle"]) * cycle_time
+            spans.append(Span(lane, start, time, role))
+            start = time
+            role = DEAD if event["kind"] == EventKind.DIED else FRAME_ROLE[Role(int(event["value"]))]
+        spans.append(Span(lane, start, end, role))
+    marks = []
+    for event in events:
+        time = float(event["cycle"]) * cycle_time
+        if event["kind"] == EventKind.BRANCH:
+            marks.append((time, f"branch {event['subject']}"))
+        elif event["kind"] == EventKind.CHAIN:
+            marks.append((time, "chain complete"))
+    counts = events[events["kind"] == EventKind.SEQUENCE]["cycle"] * cycle_time
+    lanes = tuple(str(identity) for identity in identities)
+    return Timeline(lanes, tuple(spans), tuple(marks), tuple(float(t) for t in counts), end)
+
+
+def published_run_times() -> dict[str, tuple[float, ...]]:
+    """Return Table S3: times of the ten robot runs, infinity where the time cap came first."""
+    text = resources.files("formicarium.systems.sequencing.published").joinpath("table_s3.csv").read_text()
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    names = {"time_chain_s": "chain_s", "time_1_s": "seq1_s", "time_5_s": "seq5_s", "time_10_s": "seq10_s"}
+    return {ours: tuple(float(row[theirs] or "inf") for row in rows) for ours, theirs in names.items()}
+
+
+MARK_I3 = System(
+    name="mark-i3",
+    summary="TS-Swarm Mark I3: a chain of e-pucks finds out in which order three tasks must be done",
+    parameters=SequencingParameters,
+    configure=mark_i3_parameters,
+    run=run_trial,
+    kinds=tuple(kind.name.lower() for kind in EventKind),
+    targets=Targets(
+        columns={"time_1_s": "1 sequence", "time_5_s": "5 sequences", "time_10_s": "10 sequences"},
+        published=published_run_times(),
+        published_label="10 runs of 20 e-pucks (Garattoni & Birattari 2018, Table S3)",
+        published_cap=2400.0,
+    ),
+    timeline=timeline,
+)

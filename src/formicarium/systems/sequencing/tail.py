@@ -1,0 +1,222 @@
+"""The tail of a growing branch (section 8; Figs S7 to S9): recruits, sweeps, finds the next guardian, hands over."""
+
+import math
+
+from formicarium.compiled import compiled
+from formicarium.angles import wrapped
+from formicarium.control.moves import shift, stop
+from formicarium.control.odometry import bearing_to, distance_to, place
+from formicarium.control.speech import in_sector
+from formicarium.robots.records import Colour
+from formicarium.systems.sequencing import link
+from formicarium.systems.sequencing.link import become_link, keep_in_line
+from formicarium.systems.sequencing.member import (
+    begin_message,
+    branch_direction,
+    distance_error,
+    hear_requests,
+    relieved,
+    send,
+    send_invitation,
+)
+from formicarium.systems.sequencing.memory import Role, State, enter
+from formicarium.systems.sequencing.messages import LINK_NUMBER_LIMIT
+from formicarium.systems.sequencing.perception import guarded_colour, track_neighbours
+
+SERVO_GAIN = 2.0  # 1/s, speed per distance error of the tail
+
+
+@compiled
+def become_tail(reading, memory, table, n):
+    """Take over from the sender of the n-th packet, a T_RES with the own identity."""
+    message = memory.heard[n]
+    memory.role = Role.TAIL
+    memory.branch = message.branch
+    memory.link_number = min(LINK_NUMBER_LIMIT, message.link_number + 1)
+    memory.established = 0
+    memory.chosen = 0
+    memory.successor.known = 0
+    memory.requested = reading.cycle
+    memory.sweep_due = table.sweep_idle
+    memory.settled = reading.cycle
+    memory.count = 0
+    memory.notifying = 0
+    packet = reading.packets[n]
+    place(memory.predecessor, packet.distance, packet.bearing, reading.cycle)
+    wanted = Colour.CYAN if message.guardian == 1 else Colour.MAGENTA
+    for k in range(reading.blob_count):
+        blob = reading.blobs[k]
+        if blob.colour == wanted and in_sector(blob.bearing, packet.bearing, table.advert_gate):
+            place(memory.predecessor, blob.distance, blob.bearing, reading.cycle)
+            break
+    enter(memory, State.POSITION, reading.cycle)
+
+
+@compiled
+def radial_speed(memory, table):
+    """Return the speed away from the predecessor that restores the spacing; 0 within the dead band (m/s)."""
+    error = -distance_error(memory.predecessor, table.spacing)
+    if abs(error) <= table.position_band:
+        return 0.0
+    return min(table.member_speed, max(-table.member_speed, SERVO_GAIN * error))
+
+
+@compiled
+def move(memory, command, outward, leftward, table, wheel_distance):
+    """Move with given speeds along the branch direction and to its left (m/s)."""
+    if outward == 0.0 and leftward == 0.0:
+        stop(command)
+        return
+    direction = wrapped(branch_direction(memory) + math.atan2(leftward, outward))
+    speed = math.sqrt(outward * outward + leftward * leftward)
+    shift(command, direction, speed, table.steering_gain, table.turn_rate, wheel_distance)
+
+
+@compiled
+def spot_guardian(reading, memory, table):
+    """Look for a guardian that no chain has reached yet, ahead of the branch (TS-86); sight, then message.
+
+    Sets ``chosen`` and the successor's track and tells whether one was found.
+    """
+    direction = branch_direction(memory)
+    for n in range(reading.blob_count):
+        blob = reading.blobs[n]
+        if blob.colour != Colour.CYAN or not in_sector(blob.bearing, direction, table.dock_ahead):
+            continue
+        colour = guarded_colour(memory, blob.bearing, reading.cycle, table)
+        if colour == 0:
+            continue
+        advert = memory.adverts[colour]
+        if advert.in_chain == 0 and advert.tail == 0 and advert.identity != 0:
+            memory.chosen = advert.identity
+            place(memory.successor, blob.distance, blob.bearing, reading.cycle)
+            return True
+    return False
+
+
+@compiled
+def recruits_for_gap(memory, table):
+    """Tell whether the guardian is too far for this tail alone, so that one more robot is needed (U21)."""
+    return distance_to(memory.predecessor) + distance_to(memory.successor) > table.dock_gaps
+
+
+@compiled
+def hear_guardian(reading, memory):
+    """Tell whether the guardian has taken over: EST with BRN one above the branch's (TS-50)."""
+    for n in range(reading.packet_count):
+        message = memory.heard[n]
+        if message.guardian == 1 and message.established == 1 and message.branch == memory.branch + 1:
+            return True
+    return False
+
+
+@compiled
+def open_branch(reading, memory, command, table, epuck):
+    """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps."""
+    cycle = reading.cycle
+    move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
+    hear_requests(reading, memory, table, branch_direction(memory))
+    if memory.state == State.OPEN:
+        if spot_guardian(reading, memory, table):
+            memory.settled = cycle
+            enter(memory, State.DOCK, cycle)
+        elif cycle - memory.requested > memory.sweep_due:
+            enter(memory, State.SWEEP, cycle)
+
+
+@compiled
+def sweep(reading, memory, command, table, epuck):
+    """Move slowly to the left of the branch for one burst (TS-84), then pause."""
+    cycle = reading.cycle
+    move(memory, command, radial_speed(memory, table), table.sweep_speed, table, epuck.wheel_distance)
+    if spot_guardian(reading, memory, table):
+        memory.settled = cycle
+        enter(memory, State.DOCK, cycle)
+    elif cycle - memory.since >= table.sweep_burst:
+        memory.requested = cycle
+        memory.sweep_due = table.sweep_pause
+        enter(memory, State.OPEN, cycle)
+
+
+@compiled
+def dock(reading, memory, command, table, epuck):
+    """Align with predecessor and guardian; recruit one more robot if the gap is too wide (TS-87)."""
+    cycle = reading.cycle
+    if hear_guardian(reading, memory):
+        become_link(memory, cycle)
+        memory.established = 1
+        return
+    if cycle - memory.successor.seen > table.track_lost:
+        memory.chosen = 0
+        memory.successor.known = 0
+        memory.requested = cycle
+        memory.sweep_due = table.sweep_pause
+        enter(memory, State.OPEN, cycle)
+        return
+    if recruits_for_gap(memory, table):
+        memory.settled = cycle
+        move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
+        hear_requests(reading, memory, table, bearing_to(memory.successor))
+        return
+    if not keep_in_line(
+        memory.predecessor, memory.successor, command, table, table.dock_band, epuck.wheel_distance
+    ):
+        memory.settled = cycle
+
+
+@compiled
+def hands_over(reading, memory, table):
+    """Tell whether a docking tail is aligned long enough, or has tried long enough, to hand over."""
+    if memory.state != State.DOCK or recruits_for_gap(memory, table):
+        return False
+    cycle = reading.cycle
+    return cycle - memory.settled >= table.dock_hold or cycle - memory.since >= table.dock_patience
+
+
+@compiled
+def speak(reading, memory, command, table):
+    """Announce the tail; invite through the sector, or answer the chosen one in all directions."""
+    if memory.role == Role.LINK:
+        link.speak(reading, memory, command)
+        return
+    begin_message(memory, reading.identity)
+    memory.message.tail = 1
+    memory.message.branch = memory.branch
+    memory.message.link_number = memory.link_number
+    if memory.state == State.OFFER or hands_over(reading, memory, table):
+        memory.message.request = 1
+        memory.message.identity = memory.chosen
+        send(memory, command)
+    elif memory.state == State.OPEN:
+        send_invitation(memory, command, branch_direction(memory), table.sector_half_width)
+    elif memory.state == State.DOCK and recruits_for_gap(memory, table):
+        send_invitation(memory, command, bearing_to(memory.successor), table.sector_half_width)
+    else:
+        send(memory, command)
+
+
+@compiled
+def tail(reading, memory, command, table, epuck):
+    """Live one cycle as a tail."""
+    cycle = reading.cycle
+    command.colour = Colour.MAGENTA
+    track_neighbours(reading, memory, table)
+    if memory.state != State.DOCK and relieved(reading, memory, table, branch_direction(memory)):
+        become_link(memory, cycle)
+    elif memory.state == State.POSITION:
+        move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
+        if abs(distance_error(memory.predecessor, table.spacing)) > table.spacing_tolerance:
+            memory.settled = cycle
+        if cycle - memory.settled >= table.position_hold:
+            memory.requested = cycle
+            enter(memory, State.OPEN, cycle)
+    elif memory.state == State.OPEN:
+        open_branch(reading, memory, command, table, epuck)
+    elif memory.state == State.OFFER:
+        if cycle - memory.since > table.offer_patience:
+            enter(memory, State.OPEN, cycle)
+    elif memory.state == State.SWEEP:
+        sweep(reading, memory, command, table, epuck)
+    elif memory.state == State.DOCK:
+        dock(reading, memory, command, table, epuck)
+    speak(reading, memory, command, table)

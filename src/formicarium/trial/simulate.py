@@ -1,0 +1,91 @@
+"""Running a trial: the compiled loop in looks, between which Python empties the log and takes snapshots."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from formicarium.trial.record import EVENT, Frames
+
+LOOK = 100  # cycles between two looks if nobody wants frames
+
+
+class EventsLost(RuntimeError):
+    """The event log overflowed within one look."""
+
+
+class Album:
+    """Frames as they are taken; robots in the order of their identities."""
+
+    def __init__(self, state: Any, role: Callable[[Any], np.ndarray], carried: Callable[[Any], np.ndarray]) -> None:
+        self.order = np.argsort(state.robots.identity)
+        self.identity = np.array(state.robots.identity[self.order])
+        self.role, self.carried = role, carried
+        self.rows: list[tuple[Any, ...]] = []
+
+    def take(self, state: Any, lit: np.ndarray) -> None:
+        """Take one frame."""
+        bodies = state.world.bodies[self.order]
+        self.rows.append(
+            (
+                int(state.clock[0].cycle),
+                bodies.x.astype("f4"),
+                bodies.y.astype("f4"),
+                bodies.heading.astype("f4"),
+                self.role(state)[self.order].astype("i1"),
+                self.carried(state)[self.order].astype("i1"),
+                lit.astype("i1"),
+            )
+        )
+
+    def frames(self) -> Frames:
+        """Return all frames."""
+        columns = [np.array(column) for column in zip(*self.rows, strict=True)]
+        return Frames(*columns, identity=self.identity)
+
+
+def drain(state: Any) -> np.ndarray:
+    """Empty the event log; return its events by cycle, robot and kind, independent of the robots' storage.
+
+    Raises:
+        EventsLost: if the log was too short.
+    """
+    clock = state.clock[0]
+    if clock.events_lost:
+        raise EventsLost(f"{clock.events_lost} events did not fit into the log of {len(state.events)}")
+    events = np.array(state.events[: clock.event_count]).view(EVENT)
+    clock.event_count = 0
+    order = np.lexsort([events[name] for name in ("detail", "value", "subject", "kind", "robot", "cycle")])
+    return events[order]
+
+
+def simulate(
+    run: Callable[[Any, int], None],
+    state: Any,
+    *,
+    look: int = LOOK,
+    after_look: Callable[[Any], None] | None = None,
+    watch: Callable[[float, float], None] | None = None,
+) -> np.ndarray:
+    """Run a trial to its end and return its events.
+
+    Args:
+        run: the system's compiled loop, ``run(state, cycles)``.
+        state: the system's state, changed in place.
+        look: cycles between two looks.
+        after_look: called with the state at the start and after every look, to take frames.
+        watch: called with (seconds simulated, seconds at most).
+    """
+    clock = state.clock[0]
+    cycle_time = float(state.world.settings[0].cycle_time)
+    logs = []
+    if after_look:
+        after_look(state)
+    while not clock.finished and clock.cycle < clock.last_cycle:
+        run(state, min(look, int(clock.last_cycle - clock.cycle)))
+        logs.append(drain(state))
+        if after_look:
+            after_look(state)
+        if watch:
+            watch(float(clock.cycle) * cycle_time, float(clock.last_cycle) * cycle_time)
+    return np.concatenate(logs) if logs else np.zeros(0, EVENT)
