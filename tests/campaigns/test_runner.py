@@ -1,8 +1,8 @@
 """A set: produced once, loaded afterwards, the same for every number of workers, never torn."""
 
-import counting
 import pytest
 
+import counting
 from formicarium.campaigns import table
 from formicarium.campaigns.configuration import Configuration
 from formicarium.campaigns.files import StoreError
@@ -76,7 +76,7 @@ def test_a_failing_run_is_reported_and_the_others_go_on(tmp_path, workers):
 
 
 def test_a_worker_that_dies_costs_one_run(tmp_path):
-    report, rows = run(tmp_path, range(6), counting.function(dying=3), workers=2)
+    report, _rows = run(tmp_path, range(6), counting.function(dying=3), workers=2)
     assert report.produced == (0, 1, 2, 4, 5)
     assert "exit code -9" in report.failures[3]
 
@@ -96,12 +96,16 @@ def test_another_configuration_is_refused_and_nothing_is_touched(tmp_path):
     run(tmp_path, range(2), workers=1)
     before = result_files(tmp_path)
     other = CONFIGURATION._replace(parameters={"group": {"value": 2}})
-    with pytest.raises(StoreError, match=r"another configuration: .*group\.value = 1, now 2.*Choose another folder"):
+    with pytest.raises(
+        StoreError, match=r"another configuration: .*group\.value = 1, now 2.*Choose another folder"
+    ):
         Store(tmp_path, other)
     assert result_files(tmp_path) == before
 
 
-@pytest.mark.parametrize("name", ["runs.parquet", "timings.parquet", "numbers/seed-1.parquet", "configuration.json"])
+@pytest.mark.parametrize(
+    "name", ["runs.parquet", "timings.parquet", "numbers/seed-1.parquet", "configuration.json"]
+)
 def test_a_damaged_file_is_named_and_nothing_is_touched(tmp_path, name):
     run(tmp_path, range(3), workers=1)
     path = tmp_path / name
@@ -149,6 +153,6 @@ def test_ctrl_c_keeps_what_is_done(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         run(tmp_path, range(5), workers=1, progress=interrupted)
-    report, rows = run(tmp_path, range(5), workers=1)
+    report, _rows = run(tmp_path, range(5), workers=1)
     assert report.loaded == (0, 1)
     assert report.produced == (2, 3, 4)

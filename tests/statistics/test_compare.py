@@ -12,15 +12,13 @@ def test_log_rank_of_the_remission_trial():
     treated = [6, 6, 6, 7, 10, 13, 16, 22, 23]
     ended = [6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35]
     placebo = [1, 1, 2, 2, 3, 4, 4, 5, 5, 8, 8, 8, 8, 11, 11, 12, 12, 15, 17, 22, 23]
-    found = log_rank(
-        [*treated, *[None] * len(ended)], [*treated, *ended], placebo, placebo
-    )
+    found = log_rank([*treated, *[None] * len(ended)], [*treated, *ended], placebo, placebo)
     assert found.statistic**2 == pytest.approx(16.79, abs=0.005)
     assert found.p_value == pytest.approx(4.17e-5, rel=0.01)
 
 
 def test_fisher_on_the_lady_tasting_tea():
-    """Three of four cups right each way: tables as extreme or more have 17/35 of all arrangements, two-sided."""
+    """Three of four cups right each way: tables as extreme or more are 17 of 35 arrangements."""
     one_sided = [comb(4, k) * comb(4, 4 - k) / comb(8, 4) for k in range(5)]
     two_sided = sum(p for p in one_sided if p <= one_sided[3] + 1e-12)
     found = fisher(3, 4, 1, 4)

@@ -1,4 +1,4 @@
-"""Run-time distributions against counting, Kaplan and Meier's product written out, and a published example."""
+"""Run-time distributions against counting and against a published example."""
 
 import math
 
@@ -57,7 +57,15 @@ def test_a_published_table():
         survival = 1 - found.at(week)
         variance = sum(
             d / (n * (n - d))
-            for t, d, n in [(6, 3, 21), (7, 1, 17), (10, 1, 15), (13, 1, 12), (16, 1, 11), (22, 1, 7), (23, 1, 6)]
+            for t, d, n in [
+                (6, 3, 21),
+                (7, 1, 17),
+                (10, 1, 15),
+                (13, 1, 12),
+                (16, 1, 11),
+                (22, 1, 7),
+                (23, 1, 6),
+            ]
             if t <= week
         )
         wide = 1.959964 * math.sqrt(variance) / math.log(survival)

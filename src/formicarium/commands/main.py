@@ -30,7 +30,12 @@ Start here:
 """
 
 app = App(
-    name="formicarium", version=__version__, help=HELP, help_format="plaintext", help_flags=["--help", "-h"]
+    name="formicarium",
+    version=__version__,
+    help=HELP,
+    help_format="plaintext",
+    help_flags=["--help", "-h"],
+    suppress_keyboard_interrupt=False,
 )
 app.command(run)
 app.command(systems)

@@ -69,7 +69,8 @@ def _frames_table(frames: Frames) -> pa.Table:
 
 
 def _lists(values: np.ndarray) -> pa.Array:
-    return pa.FixedSizeListArray.from_arrays(pa.array(values.ravel()), values.shape[1])
+    offsets = np.arange(len(values) + 1, dtype=np.int32) * values.shape[1]
+    return pa.ListArray.from_arrays(offsets, pa.array(values.ravel()))
 
 
 def _frames(table: pa.Table) -> Frames:
@@ -77,7 +78,8 @@ def _frames(table: pa.Table) -> Frames:
     count = len(table)
 
     def matrix(name: str) -> np.ndarray:
-        return table[name].combine_chunks().flatten().to_numpy().reshape(count, -1)
+        values = table[name].combine_chunks().flatten().to_numpy()
+        return values.reshape(count, len(values) // max(count, 1))
 
     lists = {name: matrix(name) for name in Frames._fields if name not in ("cycle", "identity")}
     return Frames(cycle=table["cycle"].to_numpy(), identity=identity, **lists)
