@@ -1,9 +1,9 @@
 """Contacts: discs that touch push each other apart and rub.
 
 Sequential impulses as in Box2D-Lite (Catto, "Iterative dynamics with temporal coherence", 2005) and Chipmunk:
-each contact in turn gets the impulse that stops its approach and, within Coulomb's cone, its sliding; a few passes
-over all contacts and drives settle everybody. Nothing bounces. Overlap is mended by a speed of its own that is
-forgotten at once, so mending gives nobody momentum. Contacts are taken in the order of keys.
+each contact in turn gets the impulse that stops its approach and, within Coulomb's cone, its sliding; a few
+passes over all contacts and drives settle everybody. Nothing bounces. Overlap is mended by a speed of its own
+that is forgotten at once, so mending gives nobody momentum. Contacts are taken in the order of keys.
 """
 
 import math
@@ -13,61 +13,77 @@ from formicarium.physics.geometry import place_along, square_distance
 from formicarium.physics.grid import scenery_cell
 from formicarium.physics.motion import drive, drive_freely, fastest
 
-SLACK = 0.005  # m, added to the distance two bodies can travel towards each other: overlap being mended
+SLACK = 0.005  # m, added to what bodies can travel in a cycle: overlap being mended moves them, too
+SETTLED = 1e-9  # N s, a pass that changes no impulse by more is the last one
+RESTING = 1.1  # overlap that is mended only asymptotically is left alone at this multiple of the slop
 
 
 @compiled
 def find_contacts(world):
     """List the pairs that can touch in this cycle, by keys; return how many, and how many bodies they involve."""
+    settings = world.settings[0]
+    motions = world.solver.motions
+    contacts = world.solver.contacts
+    index = world.index
     ground = len(world.bodies)
-    travel = fastest(world) * world.settings[0].cycle_time + SLACK
+    travel = fastest(motions) * settings.cycle_time + SLACK
     count = 0
     involved_count = 0
     for place in range(len(world.bodies)):
-        i = world.order[place]
-        motion = world.motions[i]
+        i = index[place].order
+        motion = motions[i]
         before = count
         for k in range(world.neighbour_count[i]):
             near = world.neighbours[i, k]
             j = near.index
-            if near.distance < motion.radius + world.motions[j].radius + 2.0 * travel:
+            if near.distance < motion.radius + motions[j].radius + 2.0 * travel:
                 motion.involved = 1
-                if world.rank[j] > place:
+                if index[j].rank > place:
                     # Sorted by insertion: a body has few candidates.
-                    at = note_contact(world, count, i, j, -1)
-                    while at > before and world.rank[world.contacts[at - 1].second] > world.rank[j]:
-                        note_contact(world, at, i, world.contacts[at - 1].second, -1)
-                        at = note_contact(world, at - 1, i, j, -1)
+                    at = count
+                    while at > before and index[contacts[at - 1].second].rank > index[j].rank:
+                        pair(contacts, at, i, contacts[at - 1].second, -1)
+                        at -= 1
+                    pair(contacts, at, i, j, -1)
                     count += 1
-        reach = motion.radius + travel
-        cell = scenery_cell(world, motion.x, motion.y)
-        for member in range(world.scenery_first[cell], world.scenery_first[cell + 1]):
-            number = world.scenery_members[member]
-            segment = world.segments[number]
-            square = square_distance(segment.ax, segment.ay, segment.bx, segment.by, motion.x, motion.y)
-            if square < reach * reach:
+        cell = scenery_cell(settings, motion.x, motion.y)
+        for member in range(world.scenery[cell], world.scenery[cell + 1]):
+            number = world.scenery[member]
+            face = world.segments[number]
+            square = square_distance(face.ax, face.ay, face.bx, face.by, motion.x, motion.y)
+            if square < (motion.radius + travel) * (motion.radius + travel):
                 motion.involved = 1
-                note_contact(world, count, i, ground, number)
+                pair(contacts, count, i, ground, number)
                 count += 1
         if motion.involved == 1:
-            world.involved[involved_count] = i
+            motions[involved_count].listed = i
             involved_count += 1
+    for number in range(count):
+        weigh(world, contacts[number])
     return count, involved_count
 
 
 @compiled
-def note_contact(world, at, i, j, segment):
-    """Write a contact that can happen between body i and body j or a segment; return its number."""
-    if at >= len(world.contacts):
+def pair(contacts, at, i, j, segment):
+    """Write at a place of the list that body i can touch body j, or a segment."""
+    if at >= len(contacts):
         raise ValueError("more bodies overlap than a world has room for")
-    contact = world.contacts[at]
-    first = world.motions[i]
-    second = world.motions[j]
-    friction = world.settings[0].friction
+    contact = contacts[at]
     contact.first = i
     contact.second = j
     contact.segment = segment
-    contact.friction = friction * (friction if segment < 0 else world.segments[segment].friction)
+
+
+@compiled
+def weigh(world, contact):
+    """Fill in what a contact needs in all sub-steps: its friction and the masses it feels."""
+    first = world.solver.motions[contact.first]
+    second = world.solver.motions[contact.second]
+    contact.friction = world.settings[0].friction
+    if contact.segment < 0:
+        contact.friction *= world.settings[0].friction
+    else:
+        contact.friction *= world.segments[contact.segment].friction
     inverse = first.inverse_mass + second.inverse_mass
     contact.normal_mass = 1.0 / inverse
     inverse += first.radius * first.radius * first.inverse_inertia
@@ -75,25 +91,23 @@ def note_contact(world, at, i, j, segment):
     contact.tangent_mass = 1.0 / inverse
     contact.normal_impulse = 0.0
     contact.tangent_impulse = 0.0
-    return at
 
 
 @compiled
-def touch(world, contact_count):
-    """Find the contacts that touch now and their normals; return how many touch, and the deepest overlap (m)."""
-    settings = world.settings[0]
+def touch(solver, segments, settings, contact_count):
+    """Find the contacts that touch now and their normals; return how many, and the deepest overlap (m)."""
     touching_count = 0
     deepest = 0.0
     for number in range(contact_count):
-        contact = world.contacts[number]
-        first = world.motions[contact.first]
-        second = world.motions[contact.second]
+        contact = solver.contacts[number]
+        first = solver.motions[contact.first]
+        second = solver.motions[contact.second]
         if contact.segment < 0:
             dx = second.x - first.x
             dy = second.y - first.y
             reach = first.radius + second.radius
         else:
-            face = world.segments[contact.segment]
+            face = segments[contact.segment]
             place = place_along(face.ax, face.ay, face.bx, face.by, first.x, first.y)
             dx = face.ax + place * (face.bx - face.ax) - first.x
             dy = face.ay + place * (face.by - face.ay) - first.y
@@ -111,14 +125,14 @@ def touch(world, contact_count):
         deepest = max(deepest, reach - distance)
         first.touched = 1
         second.touched = 1
-        world.touching[touching_count] = number
+        solver.contacts[touching_count].listed = number
         touching_count += 1
     return touching_count, deepest
 
 
 @compiled
 def rub(contact, first, second, normal_impulse, tangent_impulse):
-    """Change the speeds of two touching bodies by an impulse (N s) along the normal and one along the rim."""
+    """Change the speeds of two bodies by an impulse (N s) along their normal and one along their rims."""
     impulse_x = normal_impulse * contact.normal_x - tangent_impulse * contact.normal_y
     impulse_y = normal_impulse * contact.normal_y + tangent_impulse * contact.normal_x
     first.speed_x -= impulse_x * first.inverse_mass
@@ -130,10 +144,32 @@ def rub(contact, first, second, normal_impulse, tangent_impulse):
 
 
 @compiled
-def begin(world, involved_count, touching_count):
-    """Give free bodies their drive's impulse, and touching ones the impulses of the sub-step before."""
+def push(contact, first, second):
+    """Correct the impulses of one contact; return the greater change (N s)."""
+    speed_x = second.speed_x - first.speed_x
+    speed_y = second.speed_y - first.speed_y
+    approach = speed_x * contact.normal_x + speed_y * contact.normal_y
+    sliding = speed_y * contact.normal_x - speed_x * contact.normal_y
+    sliding -= first.turn_rate * first.radius + second.turn_rate * second.radius
+    normal = max(0.0, contact.normal_impulse - approach * contact.normal_mass)
+    most = contact.friction * normal
+    tangent = min(most, max(-most, contact.tangent_impulse - sliding * contact.tangent_mass))
+    normal_change = normal - contact.normal_impulse
+    tangent_change = tangent - contact.tangent_impulse
+    contact.normal_impulse = normal
+    contact.tangent_impulse = tangent
+    rub(contact, first, second, normal_change, tangent_change)
+    return max(abs(normal_change), abs(tangent_change))
+
+
+@compiled
+def press(solver, involved_count, touching_count, iterations):
+    """Find new speeds: drives and contacts correct their impulses in turn until all are content."""
+    motions = solver.motions
+    contacts = solver.contacts
+    # Free bodies need their drive only; touching ones start with the impulses of the sub-step before.
     for place in range(involved_count):
-        motion = world.motions[world.involved[place]]
+        motion = motions[motions[place].listed]
         if motion.touched == 0:
             drive_freely(motion)
         else:
@@ -141,45 +177,33 @@ def begin(world, involved_count, touching_count):
             motion.speed_y += motion.impulse_y * motion.inverse_mass
             motion.turn_rate += motion.impulse_turn * motion.inverse_inertia
     for place in range(touching_count):
-        contact = world.contacts[world.touching[place]]
-        first = world.motions[contact.first]
-        second = world.motions[contact.second]
+        contact = contacts[contacts[place].listed]
+        first = motions[contact.first]
+        second = motions[contact.second]
         rub(contact, first, second, contact.normal_impulse, contact.tangent_impulse)
-
-
-@compiled
-def press(world, involved_count, touching_count):
-    """Make one pass: every drive of a touching body, then every contact, corrects its impulse."""
-    for place in range(involved_count):
-        motion = world.motions[world.involved[place]]
-        if motion.touched == 1:
-            drive(motion)
-    for place in range(touching_count):
-        contact = world.contacts[world.touching[place]]
-        first = world.motions[contact.first]
-        second = world.motions[contact.second]
-        speed_x = second.speed_x - first.speed_x
-        speed_y = second.speed_y - first.speed_y
-        approach = speed_x * contact.normal_x + speed_y * contact.normal_y
-        sliding = speed_y * contact.normal_x - speed_x * contact.normal_y
-        sliding -= first.turn_rate * first.radius + second.turn_rate * second.radius
-        normal = max(0.0, contact.normal_impulse - approach * contact.normal_mass)
-        most = contact.friction * normal
-        tangent = contact.tangent_impulse - sliding * contact.tangent_mass
-        tangent = min(most, max(-most, tangent))
-        rub(contact, first, second, normal - contact.normal_impulse, tangent - contact.tangent_impulse)
-        contact.normal_impulse = normal
-        contact.tangent_impulse = tangent
-
-
-@compiled
-def part(world, involved_count, touching_count, time):
-    """Mend overlap: move touching bodies apart by a share of their overlap, without giving them speed."""
-    for _ in range(world.settings[0].iterations):
+    for _ in range(iterations):
+        change = 0.0
+        for place in range(involved_count):
+            motion = motions[motions[place].listed]
+            if motion.touched == 1:
+                change = max(change, drive(motion))
         for place in range(touching_count):
-            contact = world.contacts[world.touching[place]]
-            first = world.motions[contact.first]
-            second = world.motions[contact.second]
+            contact = contacts[contacts[place].listed]
+            change = max(change, push(contact, motions[contact.first], motions[contact.second]))
+        if change < SETTLED:
+            break
+
+
+@compiled
+def part(solver, involved_count, touching_count, iterations, time):
+    """Mend overlap: move touching bodies apart by a share of it, without giving them speed."""
+    motions = solver.motions
+    contacts = solver.contacts
+    for _ in range(iterations):
+        for place in range(touching_count):
+            contact = contacts[contacts[place].listed]
+            first = motions[contact.first]
+            second = motions[contact.second]
             parting = (second.shift_x - first.shift_x) * contact.normal_x
             parting += (second.shift_y - first.shift_y) * contact.normal_y
             impulse = contact.parting_impulse + (contact.parting_speed - parting) * contact.normal_mass
@@ -191,7 +215,7 @@ def part(world, involved_count, touching_count, time):
             second.shift_x += change * contact.normal_x * second.inverse_mass
             second.shift_y += change * contact.normal_y * second.inverse_mass
     for place in range(involved_count):
-        motion = world.motions[world.involved[place]]
+        motion = motions[motions[place].listed]
         motion.x += motion.shift_x * time
         motion.y += motion.shift_y * time
         motion.shift_x = 0.0

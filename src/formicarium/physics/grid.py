@@ -14,9 +14,8 @@ def cell_number(place, low, cell, count):
 
 
 @compiled
-def scenery_cell(world, x, y):
+def scenery_cell(settings, x, y):
     """Return the scenery cell of a place (m)."""
-    settings = world.settings[0]
     column = cell_number(x, settings.low_x, settings.scenery_cell, settings.scenery_columns)
     row = cell_number(y, settings.low_y, settings.scenery_cell, settings.scenery_rows)
     return row * settings.scenery_columns + column
@@ -27,21 +26,22 @@ def sort_into_cells(world):
     """Write the bodies cell by cell, within a cell by ascending key (a counting sort)."""
     settings = world.settings[0]
     bodies = world.bodies
+    index = world.index
     first = world.cell_first
     first[:] = 0
     for i in range(len(bodies)):
         column = cell_number(bodies[i].x, settings.low_x, settings.cell, settings.columns)
         row = cell_number(bodies[i].y, settings.low_y, settings.cell, settings.rows)
-        world.cells[i] = row * settings.columns + column
-        first[world.cells[i]] += 1
+        index[i].cell = row * settings.columns + column
+        first[index[i].cell] += 1
     total = 0
     for cell in range(len(first)):
         total += first[cell]
         first[cell] = total
     for place in range(len(bodies) - 1, -1, -1):
-        i = world.order[place]
-        first[world.cells[i]] -= 1
-        world.cell_members[first[world.cells[i]]] = i
+        i = index[place].order
+        first[index[i].cell] -= 1
+        index[first[index[i].cell]].member = i
 
 
 @compiled
@@ -53,24 +53,25 @@ def find_neighbours(world):
     sort_into_cells(world)
     settings = world.settings[0]
     bodies = world.bodies
+    index = world.index
     neighbours = world.neighbours
     count = world.neighbour_count
     columns = settings.columns
     square_reach = settings.reach * settings.reach
     count[:] = 0
     for place in range(len(bodies)):
-        i = world.order[place]
+        i = index[place].order
         x = bodies[i].x
         y = bodies[i].y
-        row = world.cells[i] // columns
-        column = world.cells[i] - row * columns
+        row = index[i].cell // columns
+        column = index[i].cell - row * columns
         for near_row in range(max(0, row - 1), min(settings.rows, row + 2)):
             # The cells of a row follow each other, so three cells are one range of members.
             start = world.cell_first[near_row * columns + max(0, column - 1)]
             end = world.cell_first[near_row * columns + min(columns - 1, column + 1) + 1]
             for member in range(start, end):
-                j = world.cell_members[member]
-                if world.rank[j] <= place:
+                j = index[member].member
+                if index[j].rank <= place:
                     continue
                 dx = bodies[j].x - x
                 dy = bodies[j].y - y
@@ -93,10 +94,10 @@ def note_neighbour(neighbours, count, i, j, dx, dy, distance):
     count[i] += 1
 
 
-def lists_of_scenery(segments: np.recarray, settings: np.record) -> tuple[np.ndarray, np.ndarray]:
+def lists_of_scenery(segments: np.recarray, settings: np.record) -> np.ndarray:
     """Return for each scenery cell the segments within settings.scenery_reach of any point of the cell.
 
-    Compressed rows: the members of cell c are members[first[c]:first[c + 1]], in ascending order. A few
+    Compressed rows in one array: those of cell c are lists[lists[c]:lists[c + 1]], in ascending order. A few
     segments slightly farther away are listed too; their users test distances themselves.
     """
     cell = settings.scenery_cell
@@ -118,4 +119,4 @@ def lists_of_scenery(segments: np.recarray, settings: np.record) -> tuple[np.nda
     by_cell, by_number = np.concatenate(cells), np.concatenate(members)
     first = np.zeros(len(x) + 1, np.int64)
     first[1:] = np.cumsum(np.bincount(by_cell, minlength=len(x)))
-    return first, by_number[np.argsort(by_cell, kind="stable")].astype(np.int64)
+    return np.concatenate([first + len(first), by_number[np.argsort(by_cell, kind="stable")]])

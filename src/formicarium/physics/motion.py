@@ -1,8 +1,8 @@
 """Motion: bodies move with their speeds and drives change the speeds.
 
-A drive is a motor with a limited force that strives for a commanded velocity: forward along the heading at the
-start of the cycle, nothing sideways. So it also resists being pushed. A passive disc is a drive towards rest,
-and its force limit is the friction of the floor.
+A drive is a motor with a limited force that strives for a commanded velocity: forward along the heading at
+the start of the cycle, nothing sideways. So it also resists being pushed. A passive disc is a drive towards
+rest, and its force limit is the friction of the floor.
 """
 
 import math
@@ -17,9 +17,10 @@ def aim_drives(world):
     time = settings.cycle_time / settings.substeps
     for i in range(len(world.bodies)):
         body = world.bodies[i]
-        motion = world.motions[i]
+        motion = world.solver.motions[i]
         motion.x = body.x
         motion.y = body.y
+        motion.heading = body.heading
         motion.speed_x = body.speed_x
         motion.speed_y = body.speed_y
         motion.turn_rate = body.turn_rate
@@ -40,23 +41,24 @@ def aim_drives(world):
 
 
 @compiled
-def fastest(world):
+def fastest(motions):
     """Return the greatest speed (m/s) that any body has or strives for."""
-    speed = 0.0
-    for i in range(len(world.bodies)):
-        motion = world.motions[i]
-        speed = max(speed, motion.speed_x * motion.speed_x + motion.speed_y * motion.speed_y)
-        speed = max(speed, motion.target_x * motion.target_x + motion.target_y * motion.target_y)
-    return math.sqrt(speed)
+    square = 0.0
+    for i in range(len(motions)):
+        motion = motions[i]
+        square = max(square, motion.speed_x * motion.speed_x + motion.speed_y * motion.speed_y)
+        square = max(square, motion.target_x * motion.target_x + motion.target_y * motion.target_y)
+    return math.sqrt(square)
 
 
 @compiled
 def drive(motion):
-    """Give the drive's impulse: towards its target, at most its limit.
+    """Give the drive's impulse: towards its target, at most its limit. Return the greatest change (N s).
 
-    Called once it is exact for a free body. Called after each pass over the contacts it is the drive's share of
+    Called once it is exact for a free body. Called in each pass over the contacts it is the drive's share of
     the solution: what is limited is the sum of its impulses in this sub-step.
     """
+    change = 0.0
     missing_x = motion.target_x - motion.speed_x
     missing_y = motion.target_y - motion.speed_y
     if missing_x != 0.0 or missing_y != 0.0:
@@ -72,6 +74,7 @@ def drive(motion):
         else:
             motion.speed_x = motion.target_x
             motion.speed_y = motion.target_y
+        change = max(abs(impulse_x - motion.impulse_x), abs(impulse_y - motion.impulse_y))
         motion.impulse_x = impulse_x
         motion.impulse_y = impulse_y
     missing = motion.target_turn - motion.turn_rate
@@ -82,7 +85,9 @@ def drive(motion):
             motion.turn_rate += (impulse - motion.impulse_turn) * motion.inverse_inertia
         else:
             motion.turn_rate = motion.target_turn
+        change = max(change, abs(impulse - motion.impulse_turn))
         motion.impulse_turn = impulse
+    return change
 
 
 @compiled
@@ -95,32 +100,31 @@ def drive_freely(motion):
 
 
 @compiled
-def glide(world):
-    """Move the bodies that can touch nothing in this cycle through all its sub-steps at once."""
-    settings = world.settings[0]
-    time = settings.cycle_time / settings.substeps
-    for i in range(len(world.bodies)):
-        motion = world.motions[i]
+def glide(solver, substeps, time):
+    """Move the bodies that can touch nothing in this cycle through all its sub-steps (s) at once."""
+    for i in range(len(solver.motions) - 1):
+        motion = solver.motions[i]
         if motion.involved == 0:
-            heading = world.bodies[i].heading
-            for _ in range(settings.substeps):
-                motion.x += motion.speed_x * time
-                motion.y += motion.speed_y * time
-                heading += motion.turn_rate * time
+            for _ in range(substeps):
+                advance(motion, time)
                 drive_freely(motion)
-            world.bodies[i].heading = heading
 
 
 @compiled
-def move(world, involved_count, time):
+def move(solver, involved_count, time):
     """Move the bodies that can touch something through one sub-step (s), with the speeds they have."""
     for place in range(involved_count):
-        i = world.involved[place]
-        motion = world.motions[i]
-        motion.x += motion.speed_x * time
-        motion.y += motion.speed_y * time
-        world.bodies[i].heading += motion.turn_rate * time
+        motion = solver.motions[solver.motions[place].listed]
+        advance(motion, time)
         motion.touched = 0
+
+
+@compiled
+def advance(motion, time):
+    """Move one body with the speeds it has (s)."""
+    motion.x += motion.speed_x * time
+    motion.y += motion.speed_y * time
+    motion.heading += motion.turn_rate * time
 
 
 @compiled
@@ -128,9 +132,10 @@ def settle(world):
     """End a cycle: write places and speeds back to the bodies."""
     for i in range(len(world.bodies)):
         body = world.bodies[i]
-        motion = world.motions[i]
+        motion = world.solver.motions[i]
         body.x = motion.x
         body.y = motion.y
+        body.heading = motion.heading
         body.speed_x = motion.speed_x
         body.speed_y = motion.speed_y
         body.turn_rate = motion.turn_rate

@@ -88,11 +88,23 @@ NEIGHBOUR = np.dtype(
     align=True,
 )
 
+# Lists of bodies, one entry per body.
+INDEX = np.dtype(
+    [
+        ("order", "i8"),  # the p-th body by ascending key
+        ("rank", "i8"),  # where body i is in that order
+        ("cell", "i8"),  # cell of body i in the body grid
+        ("member", "i8"),  # the p-th body by cell, then by key
+    ],
+    align=True,
+)
+
 # The working copy of a body within one cycle. The record after the last body is the ground: it never moves.
 MOTION = np.dtype(
     [
         ("x", "f8"),
         ("y", "f8"),
+        ("heading", "f8"),
         ("speed_x", "f8"),
         ("speed_y", "f8"),
         ("turn_rate", "f8"),
@@ -111,6 +123,7 @@ MOTION = np.dtype(
         ("impulse_turn", "f8"),  # N m s
         ("touched", "i8"),  # 1 if it has a contact in this sub-step
         ("involved", "i8"),  # 1 if it can have a contact in this cycle
+        ("listed", "i8"),  # a list of its own: record p names the p-th body that is involved
     ],
     align=True,
 )
@@ -130,6 +143,7 @@ CONTACT = np.dtype(
         ("tangent_impulse", "f8"),  # N s
         ("parting_speed", "f8"),  # m/s at which overlap is to be mended
         ("parting_impulse", "f8"),  # N s
+        ("listed", "i8"),  # a list of its own: record p names the p-th contact that touches now
     ],
     align=True,
 )

@@ -8,6 +8,7 @@ from formicarium.physics.grid import find_neighbours, lists_of_scenery
 from formicarium.physics.records import (
     BODY,
     CONTACT,
+    INDEX,
     MOTION,
     NEIGHBOUR,
     OBSTACLE,
@@ -60,8 +61,18 @@ PAIRS_ALWAYS = 50_000  # room for all pairs of 300 bodies
 PAIRS_PER_BODY = 32  # three times what a packed crowd can have within a cycle's travel
 
 
+class Solver(NamedTuple):
+    """What only lives within one cycle."""
+
+    motions: np.recarray  # MOTION (N + 1,)
+    contacts: np.recarray  # CONTACT: pairs that can touch in this cycle, by keys
+
+
 class World(NamedTuple):
-    """Everything physics knows. Only bodies are state; what follows neighbour_count is scratch space."""
+    """Everything physics knows. Only bodies are state; neighbours and what follows them are found from it.
+
+    The fewer arrays, the better: handing a World to a function that is not inlined costs 10 ns for each.
+    """
 
     bodies: np.recarray  # BODY (N,)
     segments: np.recarray  # SEGMENT (S,)
@@ -69,17 +80,10 @@ class World(NamedTuple):
     settings: np.recarray  # SETTINGS (1,)
     neighbours: np.recarray  # NEIGHBOUR (N, N - 1 or more): row i holds the neighbours of body i
     neighbour_count: np.ndarray  # (N,): how many of row i are valid
-    order: np.ndarray  # (N,): bodies by ascending key
-    rank: np.ndarray  # (N,): place of each body in order
-    cells: np.ndarray  # (N,): cell of each body
-    cell_first: np.ndarray  # (cells + 1,): first member of each cell
-    cell_members: np.ndarray  # (N,): bodies by cell, then by key
-    scenery_first: np.ndarray  # (scenery cells + 1,): first member of each scenery cell
-    scenery_members: np.ndarray  # segments near each scenery cell
-    motions: np.recarray  # MOTION (N + 1,)
-    involved: np.ndarray  # (N,): bodies that can have a contact in this cycle, by key
-    contacts: np.recarray  # CONTACT: pairs that can touch in this cycle, by keys
-    touching: np.ndarray  # contacts that touch in this sub-step
+    scenery: np.ndarray  # segments near each scenery cell, see grid.lists_of_scenery
+    index: np.recarray  # INDEX (N,)
+    cell_first: np.ndarray  # (cells + 1,): first member of each cell of the body grid
+    solver: Solver
 
 
 def make_bodies(count: int, **fields: object) -> np.recarray:
@@ -158,14 +162,14 @@ def make_world(
     time = set_.cycle_time / set_.substeps
     set_.mending = (1.0 - set_.bias**time) / time
     set_.tall_walls = int(((segments.group == 0) & (segments.tall != 0)).any())
-    scenery_first, scenery_members = lists_of_scenery(segments, set_)
+    scenery = lists_of_scenery(segments, set_)
 
     count = len(bodies)
-    order = np.argsort(bodies.key, kind="stable")
-    rank = np.empty(count, np.int64)
-    rank[order] = np.arange(count)
+    index = records(INDEX, count)
+    index.order = np.argsort(bodies.key, kind="stable")
+    index.rank[index.order] = np.arange(count)
     pairs = min(count * (count - 1) // 2, max(PAIRS_ALWAYS, PAIRS_PER_BODY * count))
-    room = pairs + count * int(np.diff(scenery_first).max(initial=0))
+    room = pairs + count * int(np.diff(scenery[: scenery[0]]).max(initial=0))
     world = World(
         bodies=bodies,
         segments=segments,
@@ -173,17 +177,10 @@ def make_world(
         settings=chosen,
         neighbours=records(NEIGHBOUR, (count, max(1, count - 1))),
         neighbour_count=np.zeros(count, np.int64),
-        order=order,
-        rank=rank,
-        cells=np.zeros(count, np.int64),
+        scenery=scenery,
+        index=index,
         cell_first=np.zeros(set_.columns * set_.rows + 1, np.int64),
-        cell_members=np.zeros(count, np.int64),
-        scenery_first=scenery_first,
-        scenery_members=scenery_members,
-        motions=records(MOTION, count + 1),
-        involved=np.zeros(count, np.int64),
-        contacts=records(CONTACT, max(1, room)),
-        touching=np.zeros(max(1, room), np.int64),
+        solver=Solver(motions=records(MOTION, count + 1), contacts=records(CONTACT, max(1, room))),
     )
     find_neighbours(world)
     return world
