@@ -9,10 +9,12 @@ from matplotlib.image import imread
 import random_walk
 from formicarium.campaigns.files import StoreError
 from formicarium.statistics.runtimes import run_times
+from formicarium.trial.record import Frames, Polygon, Scene
 from formicarium.views import movie
 from formicarium.views.chain import bands
 from formicarium.views.frames import draw_frame
 from formicarium.views.movie import draw_movie, images
+from formicarium.views.outlines import area, hull
 from formicarium.views.overhead import Overhead
 from formicarium.views.runtimes import draw_run_times
 from formicarium.views.style import role_styles
@@ -149,10 +151,40 @@ def test_run_times_are_drawn_with_and_without_published_runs(tmp_path):
         {"one": reached, "two": never}, {"one": reached}, tmp_path / "both.png", published_label="x"
     )
     draw_run_times({"one": reached, "two": never}, {}, tmp_path / "ours.png")
-    assert imread(tmp_path / "both.png").shape == imread(tmp_path / "ours.png").shape == (675, 1000, 4)
+    assert imread(tmp_path / "both.png").shape == imread(tmp_path / "ours.png").shape == (700, 1000, 4)
 
 
 def test_a_picture_that_cannot_be_written_is_named(trial, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(StoreError, match=r"cannot write .*frame\.png"):
         draw_frame(trial.scene, trial.frames, tmp_path / "file" / "frame.png")
+
+
+def test_a_booth_with_an_opening_is_lit_inside():
+    wall = 0.1
+    bent = np.array(
+        [[0, 0], [3, 0], [3, 3], [0, 3], [0, 3 - wall], [3 - wall, 3 - wall], [3 - wall, wall], [0, wall]]
+    )
+    assert area(bent) == pytest.approx(3 * wall * 2 + (3 - 2 * wall) * wall)
+    assert area(hull(bent)) == pytest.approx(9)
+    scene = Scene(
+        (Polygon(np.array([[-2, -2], [5, -2], [5, 5], [-2, 5.0]]), "wall"), Polygon(bent, "red")),
+        0.1,
+        ("a",),
+        1.0,
+    )
+    frames = Frames(
+        np.array([0, 1]),
+        *np.full((4, 2, 1), -1.0)[:3],
+        np.zeros((2, 1), int),
+        np.zeros((2, 1), int),
+        np.array([[1], [0]]),
+        np.array([1]),
+    )
+    picture = Overhead(scene)
+    for index, lit in enumerate((True, False)):
+        picture.show(frames, index)
+        red, green, _ = pixel(picture, 0.6, 0.6)
+        assert (red - green > 80) == lit
+        red, green, _ = pixel(picture, 3 - wall / 2, 0.6)
+        assert red - green > 80

@@ -32,9 +32,14 @@ class RunTimes(NamedTuple):
 
     @property
     def median(self) -> float:
-        """First time by which half of the runs have reached the target, seconds; infinite if never."""
-        there = np.flatnonzero(self.share >= 0.5 - 1e-12)
-        return float(self.times[there[0]]) if len(there) else math.inf
+        """Time by which half of the runs have reached the target, seconds; infinite if it was not reached.
+
+        Where exactly half have, it lies midway between that time and the next, as the median of an even number
+        of times does.
+        """
+        half = np.flatnonzero(self.share > 0.5 - 1e-12)
+        more = np.flatnonzero(self.share > 0.5 + 1e-12)
+        return float((self.times[half[0]] + self.times[more[0]]) / 2) if len(more) else math.inf
 
 
 def run_times(times: Sequence[float | None], ends: Sequence[float], confidence: float = 0.95) -> RunTimes:

@@ -10,6 +10,7 @@ from formicarium.trial.record import Frames, Scene
 from formicarium.views.chain import bands
 from formicarium.views.figure import new_figure
 from formicarium.views.glyphs import glyph
+from formicarium.views.outlines import area, hull
 from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, PAPER, clock, colour, role_styles
 
 WIDTH, HEIGHT = 8.0, 6.4  # inches
@@ -108,12 +109,18 @@ class Overhead:
         devices = [polygon for polygon in self.scene.polygons if polygon.colour != "wall"]
         self._booth_colours = np.array([_rgba(colour(device.colour)) for device in devices]).reshape(-1, 4)
         in_metres = AffineDeltaTransform(self.axes.transData)  # type: ignore[arg-type]
-        self.booths = PolyCollection(
-            [device.points for device in devices], edgecolors=self._booth_colours, linewidths=2.5, zorder=2
+        outlines = [hull(device.points) for device in devices]
+        self.booths = PolyCollection(outlines, edgecolors=self._booth_colours, linewidths=2.5, zorder=2)
+        # A booth with an opening is a bent wall: solid in its colour, its inside lit or dark.
+        bent = [area(device.points) < 0.9 * area(outline) for device, outline in zip(devices, outlines)]
+        walls = [device.points for device, is_bent in zip(devices, bent) if is_bent]
+        self.axes.add_collection(
+            PolyCollection(walls, facecolors=self._booth_colours[np.array(bent, bool)], zorder=2.5),
+            autolim=False,
         )
         self.booth_letters = PathCollection(
             [glyph(device.colour[:1].upper(), self.scene.radius) for device in devices],
-            offsets=[device.points.mean(axis=0) for device in devices],
+            offsets=[(o.min(axis=0) + o.max(axis=0)) / 2 for o in outlines] or np.zeros((0, 2)),
             offset_transform=self.axes.transData,
             transform=in_metres,
             linewidths=0,
@@ -181,12 +188,6 @@ class Overhead:
         )
         self.side.text(0.42, height, name, size=11, color=INK, va="center")
         self.counts.append(self.side.text(1.45, height, "", size=11, color=INK, va="center", ha="right"))
-
-
-def area(points: np.ndarray) -> float:
-    """Area of a closed outline of (K, 2) points (shoelace formula), square metres."""
-    x, y = points.T
-    return 0.5 * abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
 def _rgba(name: str) -> tuple[float, float, float, float]:

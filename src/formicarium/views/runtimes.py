@@ -33,8 +33,8 @@ def draw_run_times(
     Raises:
         StoreError: if the file cannot be written.
     """
-    figure = new_figure(8.0, 5.4)
-    axes = figure.add_axes((0.095, 0.115, 0.875, 0.70))
+    figure = new_figure(8.0, 5.6)
+    axes = figure.add_axes((0.095, 0.11, 0.875, 0.665))
     colours = dict(zip(dict.fromkeys([*measured, *published]), CURVES * 3))
     end = max((d.end for d in [*measured.values(), *published.values()]), default=1.0)
     for label, distribution in measured.items():
@@ -62,16 +62,16 @@ def draw_run_times(
             label=f"published: {published_label}",
         ),
     ]
-    figure.text(0.095, 0.955, title, size=12, color=INK, weight="bold", va="center")
+    figure.text(0.095, 0.958, title, size=12, color=INK, weight="bold", va="center")
     style = {"frameon": False, "fontsize": 9.5, "columnspacing": 1.6, "borderaxespad": 0.0}
     figure.legend(
-        handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.925), ncols=len(targets), **style
+        handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.93), ncols=len(targets), **style
     )
     figure.legend(
         handles=sources[: 2 if published else 1],
         loc="upper left",
-        bbox_to_anchor=(0.087, 0.877),
-        ncols=2,
+        bbox_to_anchor=(0.087, 0.885),
+        ncols=1,
         **style,
     )
     return save(figure, path)
@@ -82,7 +82,7 @@ def _draw_measured(axes: Axes, distribution: RunTimes, end: float, colour: str) 
     axes.step(times, share, where="post", color=colour, linewidth=2.2)
     _, low = _steps(distribution, distribution.low, np.nan, end)
     _, high = _steps(distribution, distribution.high, np.nan, end)
-    axes.fill_between(times, low, high, step="post", color=colour, alpha=0.15, linewidth=0)
+    axes.fill_between(times, low, high, step="post", color=colour, alpha=0.13, linewidth=0)
 
 
 def _draw_published(axes: Axes, distribution: RunTimes, end: float, colour: str) -> None:
