@@ -34,8 +34,8 @@ class RunTimes(NamedTuple):
     def median(self) -> float:
         """Time by which half of the runs have reached the target, seconds; infinite if it was not reached.
 
-        Where exactly half have, it lies midway between that time and the next, as the median of an even number
-        of times does.
+        Where exactly half have, it lies midway between that time and the next, as a median of an even
+        number of times does.
         """
         half = np.flatnonzero(self.share > 0.5 - 1e-12)
         more = np.flatnonzero(self.share > 0.5 + 1e-12)
