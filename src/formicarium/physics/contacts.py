@@ -20,17 +20,17 @@ RESTING = 1.1  # overlap that is mended only asymptotically is left alone at thi
 
 @compiled
 def find_contacts(world):
-    """List the pairs that can touch in this cycle, by keys; return how many, and how many bodies they involve."""
+    """List the pairs that can touch in this cycle, by keys; return their number and that of their bodies."""
     settings = world.settings[0]
     motions = world.solver.motions
     contacts = world.solver.contacts
-    index = world.index
+    lists = world.lists
     ground = len(world.bodies)
     travel = fastest(motions) * settings.cycle_time + SLACK
     count = 0
     involved_count = 0
     for place in range(len(world.bodies)):
-        i = index[place].order
+        i = lists[place].order
         motion = motions[i]
         before = count
         for k in range(world.neighbour_count[i]):
@@ -38,10 +38,10 @@ def find_contacts(world):
             j = near.index
             if near.distance < motion.radius + motions[j].radius + 2.0 * travel:
                 motion.involved = 1
-                if index[j].rank > place:
+                if lists[j].rank > place:
                     # Sorted by insertion: a body has few candidates.
                     at = count
-                    while at > before and index[contacts[at - 1].second].rank > index[j].rank:
+                    while at > before and lists[contacts[at - 1].second].rank > lists[j].rank:
                         pair(contacts, at, i, contacts[at - 1].second, -1)
                         at -= 1
                     pair(contacts, at, i, j, -1)

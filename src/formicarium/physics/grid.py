@@ -26,22 +26,22 @@ def sort_into_cells(world):
     """Write the bodies cell by cell, within a cell by ascending key (a counting sort)."""
     settings = world.settings[0]
     bodies = world.bodies
-    index = world.index
+    lists = world.lists
     first = world.cell_first
     first[:] = 0
     for i in range(len(bodies)):
         column = cell_number(bodies[i].x, settings.low_x, settings.cell, settings.columns)
         row = cell_number(bodies[i].y, settings.low_y, settings.cell, settings.rows)
-        index[i].cell = row * settings.columns + column
-        first[index[i].cell] += 1
+        lists[i].cell = row * settings.columns + column
+        first[lists[i].cell] += 1
     total = 0
     for cell in range(len(first)):
         total += first[cell]
         first[cell] = total
     for place in range(len(bodies) - 1, -1, -1):
-        i = index[place].order
-        first[index[i].cell] -= 1
-        index[first[index[i].cell]].member = i
+        i = lists[place].order
+        first[lists[i].cell] -= 1
+        lists[first[lists[i].cell]].member = i
 
 
 @compiled
@@ -53,25 +53,25 @@ def find_neighbours(world):
     sort_into_cells(world)
     settings = world.settings[0]
     bodies = world.bodies
-    index = world.index
+    lists = world.lists
     neighbours = world.neighbours
     count = world.neighbour_count
     columns = settings.columns
     square_reach = settings.reach * settings.reach
     count[:] = 0
     for place in range(len(bodies)):
-        i = index[place].order
+        i = lists[place].order
         x = bodies[i].x
         y = bodies[i].y
-        row = index[i].cell // columns
-        column = index[i].cell - row * columns
+        row = lists[i].cell // columns
+        column = lists[i].cell - row * columns
         for near_row in range(max(0, row - 1), min(settings.rows, row + 2)):
             # The cells of a row follow each other, so three cells are one range of members.
             start = world.cell_first[near_row * columns + max(0, column - 1)]
             end = world.cell_first[near_row * columns + min(columns - 1, column + 1) + 1]
             for member in range(start, end):
-                j = index[member].member
-                if index[j].rank <= place:
+                j = lists[member].member
+                if lists[j].rank <= place:
                     continue
                 dx = bodies[j].x - x
                 dy = bodies[j].y - y
@@ -97,8 +97,8 @@ def note_neighbour(neighbours, count, i, j, dx, dy, distance):
 def lists_of_scenery(segments: np.recarray, settings: np.record) -> np.ndarray:
     """Return for each scenery cell the segments within settings.scenery_reach of any point of the cell.
 
-    Compressed rows in one array: those of cell c are lists[lists[c]:lists[c + 1]], in ascending order. A few
-    segments slightly farther away are listed too; their users test distances themselves.
+    Compressed rows in one array: those of cell c are scenery[scenery[c]:scenery[c + 1]], in ascending order.
+    A few segments slightly farther away are listed too; their users test distances themselves.
     """
     cell = settings.scenery_cell
     columns, rows = settings.scenery_columns, settings.scenery_rows

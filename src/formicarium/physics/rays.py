@@ -1,6 +1,6 @@
 """Rays: what a beam from a body hits first, and whether two places see each other.
 
-The functions that take a world only hand on what is needed of it, so that they are inlined.
+The functions that take a world hand on only what is needed of it: few arguments are cheap arguments.
 """
 
 import math
@@ -73,7 +73,7 @@ def cast_at_face(body, face, start_radius, cosines, sines, distances):
 
 @compiled
 def bodies_in_line_of_sight(world, i, k):
-    """Tell whether body i sees its k-th neighbour: no third disc, nothing tall on the line between centres."""
+    """Tell whether body i sees its k-th neighbour: no third disc and nothing tall between the centres."""
     if hidden_by_disc(world.bodies, world.neighbours, i, k, world.neighbour_count[i]):
         return False
     body = world.bodies[i]

@@ -89,7 +89,7 @@ NEIGHBOUR = np.dtype(
 )
 
 # Lists of bodies, one entry per body.
-INDEX = np.dtype(
+LISTS = np.dtype(
     [
         ("order", "i8"),  # the p-th body by ascending key
         ("rank", "i8"),  # where body i is in that order
@@ -152,3 +152,8 @@ CONTACT = np.dtype(
 def records(dtype: np.dtype, count: int | tuple[int, ...]) -> np.recarray:
     """Return zeroed records whose fields are attributes, compiled and interpreted."""
     return np.zeros(count, dtype).view(np.recarray)
+
+
+def copied(array: np.ndarray, dtype: np.dtype) -> np.recarray:
+    """Return a copy whose fields are attributes."""
+    return np.array(array, dtype).view(np.recarray)

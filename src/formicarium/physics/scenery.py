@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from formicarium.physics.records import OBSTACLE, SEGMENT, records
+from formicarium.physics.records import OBSTACLE, SEGMENT, copied, records
 
 Point = tuple[float, float]
 
@@ -94,7 +94,7 @@ def obstacles_of(segments: np.recarray) -> np.recarray:
         members = np.flatnonzero(segments.group == k + 1)
         if not len(members) or members[-1] - members[0] + 1 != len(members):
             raise ValueError(f"the segments of group {k + 1} must exist and stand together")
-        own = segments[members]
+        own = copied(segments[members], SEGMENT)
         xs, ys = np.append(own.ax, own.bx), np.append(own.ay, own.by)
         x, y = 0.5 * (xs.min() + xs.max()), 0.5 * (ys.min() + ys.max())
         radius = np.sqrt(np.max((xs - x) ** 2 + (ys - y) ** 2))

@@ -8,12 +8,13 @@ from formicarium.physics.grid import find_neighbours, lists_of_scenery
 from formicarium.physics.records import (
     BODY,
     CONTACT,
-    INDEX,
+    LISTS,
     MOTION,
     NEIGHBOUR,
     OBSTACLE,
     SEGMENT,
     SETTINGS,
+    copied,
     records,
 )
 from formicarium.physics.scenery import (
@@ -43,8 +44,8 @@ __all__ = [
     "regular_polygon",
 ]
 
-# What a caller may set, with the values of the reference simulator (design/epuck.md 2.2) except for slop, whose
-# 0.1 m there lets overlapping bodies overlap for ever.
+# What a caller may set, with the values of the reference simulator (design/epuck.md 2.2) except for slop,
+# whose 0.1 m there lets overlapping bodies overlap for ever.
 ADJUSTABLE = {
     "cycle_time": 0.1,
     "substeps": 10,
@@ -55,6 +56,7 @@ ADJUSTABLE = {
     "reach": 0.82,
     "scenery_reach": 0.11,
 }
+FIELDS = BODY.names or ()
 MOST_CELLS = 64  # along one side of the body grid
 SCENERY_CELL = 0.1  # m
 PAIRS_ALWAYS = 50_000  # room for all pairs of 300 bodies
@@ -81,7 +83,7 @@ class World(NamedTuple):
     neighbours: np.recarray  # NEIGHBOUR (N, N - 1 or more): row i holds the neighbours of body i
     neighbour_count: np.ndarray  # (N,): how many of row i are valid
     scenery: np.ndarray  # segments near each scenery cell, see grid.lists_of_scenery
-    index: np.recarray  # INDEX (N,)
+    lists: np.recarray  # LISTS (N,)
     cell_first: np.ndarray  # (cells + 1,): first member of each cell of the body grid
     solver: Solver
 
@@ -91,15 +93,15 @@ def make_bodies(count: int, **fields: object) -> np.recarray:
     bodies = records(BODY, count)
     bodies.key = np.arange(count)
     for name, values in fields.items():
-        if name not in BODY.names:
-            raise ValueError(f"a body has no {name}; it has {', '.join(BODY.names)}")
+        if name not in FIELDS:
+            raise ValueError(f"a body has no {name}; it has {', '.join(FIELDS)}")
         bodies[name] = values
     return bodies
 
 
 def _check(bodies: np.recarray, segments: np.recarray, settings: np.recarray) -> None:
     for kind, array in (("bodies", bodies), ("segments", segments), ("settings", settings)):
-        for name in array.dtype.names:
+        for name in array.dtype.names or ():
             if not np.isfinite(array[name]).all():
                 raise ValueError(f"{kind}: {name} must be finite")
     for name in ("radius", "mass", "inertia"):
@@ -133,8 +135,8 @@ def make_world(
     """
     if len(bodies) == 0:
         raise ValueError("bodies: a world needs at least one")
-    bodies = np.array(bodies, BODY).view(np.recarray)
-    segments = np.array(joined() if segments is None else segments, SEGMENT).view(np.recarray)
+    bodies = copied(bodies, BODY)
+    segments = copied(joined() if segments is None else segments, SEGMENT)
     unknown = sorted(set(settings) - set(ADJUSTABLE))
     if unknown:
         raise ValueError(f"no setting is called {', '.join(unknown)}; there are {', '.join(ADJUSTABLE)}")
@@ -142,9 +144,7 @@ def make_world(
     for name, value in (ADJUSTABLE | settings).items():
         chosen[name] = value
     _check(bodies, segments, chosen)
-    if obstacles is None:
-        obstacles = obstacles_of(segments)
-    obstacles = np.array(obstacles, OBSTACLE).view(np.recarray)
+    obstacles = copied(obstacles_of(segments) if obstacles is None else obstacles, OBSTACLE)
     if ((obstacles.first < 0) | (obstacles.first + obstacles["count"] > len(segments))).any():
         raise ValueError("obstacles: first and count must name existing segments")
 
@@ -165,9 +165,9 @@ def make_world(
     scenery = lists_of_scenery(segments, set_)
 
     count = len(bodies)
-    index = records(INDEX, count)
-    index.order = np.argsort(bodies.key, kind="stable")
-    index.rank[index.order] = np.arange(count)
+    lists = records(LISTS, count)
+    lists.order = np.argsort(bodies.key, kind="stable")
+    lists.rank[lists.order] = np.arange(count)
     pairs = min(count * (count - 1) // 2, max(PAIRS_ALWAYS, PAIRS_PER_BODY * count))
     room = pairs + count * int(np.diff(scenery[: scenery[0]]).max(initial=0))
     world = World(
@@ -178,7 +178,7 @@ def make_world(
         neighbours=records(NEIGHBOUR, (count, max(1, count - 1))),
         neighbour_count=np.zeros(count, np.int64),
         scenery=scenery,
-        index=index,
+        lists=lists,
         cell_first=np.zeros(set_.columns * set_.rows + 1, np.int64),
         solver=Solver(motions=records(MOTION, count + 1), contacts=records(CONTACT, max(1, room))),
     )
