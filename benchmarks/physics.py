@@ -1,4 +1,4 @@
-"""Microseconds per body-step of the flat world: discs that wander in a hexagon and turn where they get stuck.
+"""Microseconds per body-step of the flat world: discs that wander in a hexagon and turn away from each other.
 
     python benchmarks/physics.py
 
@@ -26,26 +26,25 @@ SPECIFICATION.loader.exec_module(flat_scenes)
 
 ANGLES = np.radians(11.25 + 45.0 * np.arange(8))
 COSINES, SINES = np.cos(ANGLES), np.sin(ANGLES)
-SCENES = (
-    (20, 0.9),
-    (40, 0.9),
-    (40, 1.8),
-    (160, 3.6),
-    (216, 3.6),
-    (1000, 8.0),
-)  # bodies, side of the hexagon (m)
+# Bodies, side of the hexagon (m).
+SCENES = ((20, 0.9), (40, 0.9), (40, 1.8), (160, 3.6), (216, 3.6), (1000, 8.0))
 
 
 @compiled
 def wander(world, cycles, moment):
-    """Run the world; a body that is held up turns on the spot, each time for about two seconds."""
+    """Run the world; a body with another close ahead, or held up, turns on the spot for about two seconds."""
     for cycle in range(cycles):
         for i in range(len(world.bodies)):
             body = world.bodies[i]
             moment = advanced(moment)
             if body.forward > 0.0:
                 slow = body.speed_x * body.speed_x + body.speed_y * body.speed_y < 0.0064
-                if slow and cycle > 5:
+                stop = slow and cycle > 5
+                for k in range(world.neighbour_count[i]):
+                    near = world.neighbours[i, k]
+                    if near.distance < 0.11 and near.dx * body.speed_x + near.dy * body.speed_y > 0.0:
+                        stop = True
+                if stop:
                     body.forward = 0.0
                     body.turning = 1.0 if uniform(moment) < 0.5 else -1.0
             elif uniform(moment) < 0.05:

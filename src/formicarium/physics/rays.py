@@ -74,16 +74,22 @@ def cast_at_face(body, face, start_radius, cosines, sines, distances):
 @compiled
 def bodies_in_line_of_sight(world, i, k):
     """Tell whether body i sees its k-th neighbour: no third disc and nothing tall between the centres."""
-    if hidden_by_disc(world.bodies, world.neighbours, i, k, world.neighbour_count[i]):
-        return False
-    body = world.bodies[i]
-    other = world.neighbours[i, k]
-    return open_line(world, body.x, body.y, body.x + other.dx, body.y + other.dy)
+    count = world.neighbour_count[i]
+    tall_walls = world.settings[0].tall_walls
+    return sees(world.bodies, world.neighbours, world.obstacles, world.segments, tall_walls, i, k, count)
 
 
 @compiled
-def hidden_by_disc(bodies, neighbours, i, k, count):
-    """Tell whether a disc between body i and its k-th neighbour crosses the line between their centres."""
+def open_line(world, ax, ay, bx, by):
+    """Tell whether nothing tall is on the straight line between two places (m)."""
+    tall_walls = world.settings[0].tall_walls
+    return not hidden_by_scenery(world.obstacles, world.segments, tall_walls, ax, ay, bx, by)
+
+
+@compiled
+def sees(bodies, neighbours, obstacles, segments, tall_walls, i, k, count):
+    """Tell whether body i, which has this many neighbours, sees its k-th."""
+    body = bodies[i]
     other = neighbours[i, k]
     for between in range(count):
         near = neighbours[i, between]
@@ -92,38 +98,32 @@ def hidden_by_disc(bodies, neighbours, i, k, count):
             across = near.dx * other.dy - near.dy * other.dx
             hidden = bodies[near.index].radius * other.distance
             if across * across < hidden * hidden:
+                return False
+    if len(obstacles) == 0 and tall_walls == 0:
+        return True
+    end_x = body.x + other.dx
+    end_y = body.y + other.dy
+    return not hidden_by_scenery(obstacles, segments, tall_walls, body.x, body.y, end_x, end_y)
+
+
+@compiled
+def hidden_by_scenery(obstacles, segments, tall_walls, ax, ay, bx, by):
+    """Tell whether a box, a booth or a tall wall is on the line between two places (m)."""
+    for k in range(len(obstacles)):
+        obstacle = obstacles[k]
+        square = obstacle.radius * obstacle.radius
+        if square_distance(ax, ay, bx, by, obstacle.x, obstacle.y) <= square:
+            for number in range(obstacle.first, obstacle.first + obstacle.count):
+                if hidden_by_face(segments[number], ax, ay, bx, by):
+                    return True
+    if tall_walls != 0:
+        for number in range(len(segments)):
+            if hidden_by_face(segments[number], ax, ay, bx, by):
                 return True
     return False
 
 
 @compiled
-def open_line(world, ax, ay, bx, by):
-    """Tell whether nothing tall is on the straight line between two places (m)."""
-    if len(world.obstacles) > 0 and hidden_by_obstacle(world.obstacles, world.segments, ax, ay, bx, by):
-        return False
-    if world.settings[0].tall_walls != 0:
-        return not hidden_by_face(world.segments, 0, len(world.segments), ax, ay, bx, by)
-    return True
-
-
-@compiled
-def hidden_by_obstacle(obstacles, segments, ax, ay, bx, by):
-    """Tell whether a box or booth is on the line between two places (m)."""
-    for k in range(len(obstacles)):
-        obstacle = obstacles[k]
-        square = obstacle.radius * obstacle.radius
-        if square_distance(ax, ay, bx, by, obstacle.x, obstacle.y) <= square and hidden_by_face(
-            segments, obstacle.first, obstacle.count, ax, ay, bx, by
-        ):
-            return True
-    return False
-
-
-@compiled
-def hidden_by_face(segments, first, count, ax, ay, bx, by):
-    """Tell whether any tall segment of a range crosses the line between two places (m)."""
-    for number in range(first, first + count):
-        face = segments[number]
-        if face.tall != 0 and crosses(ax, ay, bx, by, face.ax, face.ay, face.bx, face.by):
-            return True
-    return False
+def hidden_by_face(face, ax, ay, bx, by):
+    """Tell whether a segment is tall and crosses the line between two places (m)."""
+    return face.tall != 0 and crosses(ax, ay, bx, by, face.ax, face.ay, face.bx, face.by)
