@@ -55,7 +55,7 @@ def perform(request: Request) -> int:
     folder = request.out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}"
     seeds = range(request.seed, request.seed + request.runs)
     every = _frames_every(request)
-    function = function_of(request.system, parameters, every)
+    function = function_of(request.system, parameters, every, configuration.sources)
     screen, trouble = Console(), Console(stderr=True)
 
     def wanted(seed: int) -> dict[str, dict[str, str]]:

@@ -28,36 +28,50 @@ def run_trial(
     )
 
 
-def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, float]) -> Function:
+class ChangedSources(RuntimeError):
+    """A worker found other sources than those that the identity of the results stands for."""
+
+
+def function_of(
+    name: str, parameters: BaseModel, frames_every: Mapping[int, float], sources: str
+) -> Function:
     """Return the function that a set repeats.
 
     Args:
         name: of the system, as ``resolve`` takes it.
         parameters: of all runs.
         frames_every: seed -> seconds between two frames; no frames for other seeds.
+        sources: hash of the sources that results are kept under; a worker that imports others refuses to run.
     """
-    return partial(_perform, name, as_json(parameters), dict(frames_every))
+    return partial(_perform, name, as_json(parameters), dict(frames_every), sources)
 
 
 def _perform(
-    system: str, parameters: bytes, frames_every: Mapping[int, float], seed: int, watch: Watch | None
+    system: str,
+    parameters: bytes,
+    frames_every: Mapping[int, float],
+    sources: str,
+    seed: int,
+    watch: Watch | None,
 ) -> Result:
+    if _sources(resolve(system)) != sources:
+        raise ChangedSources("the sources were edited while the set ran; run the same command again")
     every = frames_every.get(seed)
     return result_of(run_trial(system, parameters, seed, every, watch), resolve(system).kinds, every)
 
 
 def as_json(parameters: BaseModel) -> bytes:
     """Write parameters as JSON that reads back as the same parameters, infinities included."""
-    return to_json(parameters, inf_nan_mode="constants")
+    return to_json(parameters.model_dump(), inf_nan_mode="constants")
 
 
 def configuration_of(system: System, parameters: BaseModel) -> Configuration:
     """Return what decides the results of a system with these parameters."""
     plain: Any = from_json(as_json(parameters))
-    return Configuration(system.name, plain, source_hash(_own_folder(system)), __version__)
+    return Configuration(system.name, plain, _sources(system), __version__)
 
 
-def _own_folder(system: System) -> Path | None:
-    """Folder of a system that is not part of the package: its sources decide results as well."""
+def _sources(system: System) -> str:
+    # The folder of a system that is not part of the package decides results as well.
     folder = Path(inspect.getfile(inspect.unwrap(system.run))).resolve().parent
-    return None if folder.is_relative_to(PACKAGE) else folder
+    return source_hash(None if folder.is_relative_to(PACKAGE) else folder)
