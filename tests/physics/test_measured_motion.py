@@ -37,6 +37,11 @@ def test_a_wall_stops_a_disc_for_ever():
     assert abs(world.bodies.speed_x[0]) < 1e-6
 
 
+def test_a_wall_stops_a_disc_larger_than_the_scenery_lists_reach():
+    world = run(make_world(discs([(0, 0)], forward=0.1, radius=0.2), WALL), 4)
+    assert world.bodies.x[0] == pytest.approx(0.1, abs=0.0002)
+
+
 def test_two_discs_head_on_stop_each_other():
     world = run(make_world(discs([(0, 0), (0.3, 0)], [0, math.pi], 0.1)), 4)
     assert np.ptp(world.bodies.x) - 0.07 == pytest.approx(-0.00025, abs=0.0003)
@@ -152,6 +157,8 @@ def test_misspelt_and_impossible_settings_are_refused():
         make_world(discs([(0, 0)]), sloppiness=1)
     with pytest.raises(ValueError, match="substeps must be positive"):
         make_world(discs([(0, 0)]), substeps=0)
+    with pytest.raises(ValueError, match="reach must cover two bodies"):
+        make_world(discs([(0, 0)]), reach=0.1)
     with pytest.raises(ValueError, match="has no weight"):
         make_bodies(1, **DISC, weight=1)
     with pytest.raises(ValueError, match="at least one"):

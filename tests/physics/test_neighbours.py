@@ -18,7 +18,7 @@ places_ = st.lists(
 
 
 @settings(max_examples=200, deadline=None)
-@given(places_, st.floats(0.1, 2.0), places_)
+@given(places_, st.floats(0.2, 2.0), places_)
 def test_the_neighbours_are_all_others_within_reach(spots, reach, later):
     world = make_world(discs(spots), reach=reach)
     # Bodies may wander off the grid that was laid round their first places.

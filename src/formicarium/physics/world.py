@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from formicarium.physics.contacts import SLACK
 from formicarium.physics.grid import find_neighbours, lists_of_scenery
 from formicarium.physics.records import (
     BODY,
@@ -57,6 +58,7 @@ ADJUSTABLE = {
     "scenery_reach": 0.11,
 }
 FIELDS = BODY.names or ()
+TOP_SPEED = 0.6  # m/s, up to which nothing can be missed: twice an e-puck's wheels at their limit
 MOST_CELLS = 64  # along one side of the body grid
 SCENERY_CELL = 0.1  # m
 PAIRS_ALWAYS = 50_000  # room for all pairs of 300 bodies
@@ -144,6 +146,10 @@ def make_world(
     for name, value in (ADJUSTABLE | settings).items():
         chosen[name] = value
     _check(bodies, segments, chosen)
+    travel = TOP_SPEED * chosen.cycle_time[0] + SLACK
+    if chosen.reach[0] < 2.0 * (bodies.radius.max() + travel):
+        raise ValueError("settings: reach must cover two bodies and their travel in a cycle")
+    chosen.scenery_reach = max(chosen.scenery_reach[0], bodies.radius.max() + travel)
     obstacles = copied(obstacles_of(segments) if obstacles is None else obstacles, OBSTACLE)
     if ((obstacles.first < 0) | (obstacles.first + obstacles["count"] > len(segments))).any():
         raise ValueError("obstacles: first and count must name existing segments")
