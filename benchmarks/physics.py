@@ -97,9 +97,7 @@ def main():
     look(world, 1, distances, COSINES, SINES)
     see(world, 1)
     print(f"compiled or loaded in {time.perf_counter() - start:.1f} s")
-    print(
-        "bodies  side m  touching %  neighbours |  step+neighbours  neighbours  beams  sight   µs/body-step"
-    )
+    print("bodies  side m  touching %  neighbours |  step+neighbours  neighbours  beams  sight   µs/body-step")
     for count, side in SCENES:
         world = flat_scenes.hexagon(count, side)
         cycles = max(20, 100_000 // count)
@@ -108,9 +106,7 @@ def main():
         finding = timed(only_neighbours, cycles, count, world, cycles)
         looking = timed(look, cycles, count, world, cycles, distances, COSINES, SINES)
         seeing = timed(see, cycles, count, world, cycles)
-        touching = 100.0 * np.mean(
-            world.solver.motions.touched[:count] * world.solver.motions.involved[:count]
-        )
+        touching = 100.0 * np.mean(world.solver.motions.touched[:count] * world.solver.motions.involved[:count])
         print(
             f"{count:6d}  {side:6.2f}  {touching:10.0f}  {world.neighbour_count.mean():10.1f} |"
             f"  {moving:15.3f}  {finding:10.3f}  {looking:5.3f}  {seeing:5.3f}"

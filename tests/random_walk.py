@@ -22,20 +22,14 @@ CYCLE_TIME = 0.1
 class Swarm(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
-    robots: int = Field(
-        20, ge=1, le=200, description="robots in the arena (none)", json_schema_extra={"unit": "1"}
-    )
-    speed: float = Field(
-        0.05, gt=0, le=0.13, description="of a walk (e-puck limit)", json_schema_extra={"unit": "m/s"}
-    )
+    robots: int = Field(20, ge=1, le=200, description="robots in the arena (none)", json_schema_extra={"unit": "1"})
+    speed: float = Field(0.05, gt=0, le=0.13, description="of a walk (e-puck limit)", json_schema_extra={"unit": "m/s"})
 
 
 class Booth(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
-    dwell_time: float = Field(
-        8.0, ge=0, le=60, description="of a task (invented)", json_schema_extra={"unit": "s"}
-    )
+    dwell_time: float = Field(8.0, ge=0, le=60, description="of a task (invented)", json_schema_extra={"unit": "s"})
     speed: float = Field(1.0, gt=0, description="of nothing: a second field of that name")
     lamps: tuple[int, ...] = Field((1, 2, 3), description="that are lit")
 
@@ -99,18 +93,14 @@ def frames(parameters: Parameters, generator, every: float | None) -> Frames | N
     cycles = np.arange(0, parameters.trial.duration / CYCLE_TIME + 1, max(round(every / CYCLE_TIME), 1))
     f = len(cycles)
     turns = generator.normal(0, 0.4, (f, n)).cumsum(0)
-    place = generator.uniform(-0.6, 0.6, (2, 1, n)) + 0.02 * np.array([np.cos(turns), np.sin(turns)]).cumsum(
-        1
-    )
+    place = generator.uniform(-0.6, 0.6, (2, 1, n)) + 0.02 * np.array([np.cos(turns), np.sin(turns)]).cumsum(1)
     place = (place + 0.75) % 3.0
     place = np.where(place > 1.5, 3.0 - place, place) - 0.75
     role = np.zeros((f, n), np.int8)
     chain = [1, 2, 2, 2, 2, 2, 1, 2, 2, 2, 2, 3][:n]
     for i, kind in enumerate(chain):
         role[f // 20 * i :, i] = kind
-        place[:, f // 20 * i :, i] = np.array([0.45 - 0.16 * max(i - 5, 0), -0.55 + 0.16 * min(i, 5)])[
-            :, None
-        ]
+        place[:, f // 20 * i :, i] = np.array([0.45 - 0.16 * max(i - 5, 0), -0.55 + 0.16 * min(i, 5)])[:, None]
     role[6 * f // 10 :, -1] = 4
     carried = np.minimum(generator.integers(0, 3, (f, n)).cumsum(0) // 8 % 4, 3)
     return Frames(
@@ -139,9 +129,7 @@ def scene() -> Scene:
 def timeline(trial: Trial) -> Timeline:
     duration = float(trial.outcome["duration_s"])
     n = int(trial.outcome["robots"])
-    changes = {
-        int(e["robot"]): (e["cycle"] * CYCLE_TIME, int(e["value"])) for e in trial.events if e["kind"] == 0
-    }
+    changes = {int(e["robot"]): (e["cycle"] * CYCLE_TIME, int(e["value"])) for e in trial.events if e["kind"] == 0}
     spans = []
     for lane in range(n):
         start, role = changes.get(lane + 1, (duration, 0))

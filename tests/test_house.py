@@ -47,9 +47,7 @@ def test_no_file_has_a_name_that_says_nothing():
 
 
 def test_numba_has_one_address():
-    users = [
-        p for p in SOURCE.rglob("*.py") if re.search(r"^\s*(import|from) numba", p.read_text("utf-8"), re.M)
-    ]
+    users = [p for p in SOURCE.rglob("*.py") if re.search(r"^\s*(import|from) numba", p.read_text("utf-8"), re.M)]
     assert users == [SOURCE / "compiled.py"]
 
 

@@ -21,9 +21,7 @@ class Table(BaseModel):
         """Return the record layout: f8 for real numbers, i8 for whole numbers and switches."""
         kinds = {float: "f8", int: "i8", bool: "i8"}
         fields: list[Any] = [
-            (name, kinds[field.annotation])
-            for name, field in cls.model_fields.items()
-            if field.annotation in kinds
+            (name, kinds[field.annotation]) for name, field in cls.model_fields.items() if field.annotation in kinds
         ]
         return np.dtype(fields, align=True)
 

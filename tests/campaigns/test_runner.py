@@ -96,16 +96,12 @@ def test_another_configuration_is_refused_and_nothing_is_touched(tmp_path):
     run(tmp_path, range(2), workers=1)
     before = result_files(tmp_path)
     other = CONFIGURATION._replace(parameters={"group": {"value": 2}})
-    with pytest.raises(
-        StoreError, match=r"another configuration: .*group\.value = 1, now 2.*Choose another folder"
-    ):
+    with pytest.raises(StoreError, match=r"another configuration: .*group\.value = 1, now 2.*Choose another folder"):
         Store(tmp_path, other)
     assert result_files(tmp_path) == before
 
 
-@pytest.mark.parametrize(
-    "name", ["runs.parquet", "timings.parquet", "numbers/seed-1.parquet", "configuration.json"]
-)
+@pytest.mark.parametrize("name", ["runs.parquet", "timings.parquet", "numbers/seed-1.parquet", "configuration.json"])
 def test_a_damaged_file_is_named_and_nothing_is_touched(tmp_path, name):
     run(tmp_path, range(3), workers=1)
     path = tmp_path / name

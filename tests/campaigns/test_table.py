@@ -25,9 +25,7 @@ def test_rows_survive_and_repeat_their_bytes(tmp_path_factory, rows):
     back = table.read(folder / "one.parquet")
     assert back.to_pylist() == rows
     assert table.metadata_of(back.schema)["system"] == "counting"
-    table.write(
-        table.with_metadata(table.from_rows(back.to_pylist()), {"system": "counting"}), folder / "two.parquet"
-    )
+    table.write(table.with_metadata(table.from_rows(back.to_pylist()), {"system": "counting"}), folder / "two.parquet")
     assert (folder / "one.parquet").read_bytes() == (folder / "two.parquet").read_bytes()
 
 

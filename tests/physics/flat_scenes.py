@@ -17,9 +17,7 @@ SLOP = 0.0001  # m, the default of make_world
 def discs(places, headings=0.0, forward=0.0, **fields):
     """Return discs at these places (m) with these headings and commanded speeds."""
     xs, ys = np.asarray(places, float).T
-    return make_bodies(
-        len(xs), **(DISC | {"x": xs, "y": ys, "heading": headings, "forward": forward} | fields)
-    )
+    return make_bodies(len(xs), **(DISC | {"x": xs, "y": ys, "heading": headings, "forward": forward} | fields))
 
 
 def run(world, seconds):
@@ -76,9 +74,7 @@ class Chipmunk:
             self.bodies.append(disc)
             self.controls.append((control, body.forward, body.turning))
         for segment in segments:
-            face = pymunk.Segment(
-                self.space.static_body, (segment.ax, segment.ay), (segment.bx, segment.by), 0.0
-            )
+            face = pymunk.Segment(self.space.static_body, (segment.ax, segment.ay), (segment.bx, segment.by), 0.0)
             face.friction = segment.friction
             self.space.add(face)
 

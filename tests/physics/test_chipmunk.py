@@ -10,9 +10,7 @@ from physics.flat_scenes import Chipmunk, discs, places, run, speeds
 
 WALL = chain([(0.3, -2.0), (0.3, 2.0)])
 BOX = box(0.25, 0.0, 0.3, 0.12, 0.08)
-BAY = joined(
-    box(0.0, 0.055, 0.0, 0.12, 0.01), box(0.0, -0.055, 0.0, 0.12, 0.01), box(0.048, 0, 0, 0.024, 0.1)
-)
+BAY = joined(box(0.0, 0.055, 0.0, 0.12, 0.01), box(0.0, -0.055, 0.0, 0.12, 0.01), box(0.048, 0, 0, 0.024, 0.1))
 
 SCENES = {
     # Symmetric or driven against something fixed: small differences stay small.

@@ -85,9 +85,7 @@ def test_two_undriven_discs_meet_centrally_and_share_their_momentum():
 
 @pytest.mark.parametrize("aside", [0.01, 0.03, 0.06])
 def test_two_undriven_frictionless_discs_meet_aslant_and_keep_their_momentum(aside):
-    bodies = discs(
-        [(0, 0), (0.2, aside)], speed_x=[0.2, -0.1], mass=[0.4, 0.9], force_limit=0, torque_limit=0
-    )
+    bodies = discs([(0, 0), (0.2, aside)], speed_x=[0.2, -0.1], mass=[0.4, 0.9], force_limit=0, torque_limit=0)
     momentum, energy = np.sum(bodies.mass * bodies.speed_x), np.sum(bodies.mass * bodies.speed_x**2)
     after = run(make_world(bodies, friction=0.0), 2).bodies
     assert np.sum(after.mass * after.speed_x) == pytest.approx(momentum, rel=1e-12)

@@ -51,9 +51,7 @@ def test_the_order_of_neighbours_does_not_depend_on_storage(order, seed):
 @settings(max_examples=50, deadline=None)
 @given(st.floats(-2.5, 2.5), st.floats(-2.5, 2.5))
 def test_no_segment_within_reach_of_a_place_is_missing_from_its_cell(x, y):
-    scenery = joined(
-        polygon_walls(regular_polygon(6, 1.0, 0.2), gaps=[(0, 0.2, 0.3)]), box(0.2, 0.3, 1, 0.1, 0.2)
-    )
+    scenery = joined(polygon_walls(regular_polygon(6, 1.0, 0.2), gaps=[(0, 0.2, 0.3)]), box(0.2, 0.3, 1, 0.1, 0.2))
     world = make_world(discs([(0, 0)]), scenery)
     cell = scenery_cell(world.settings[0], x, y)
     listed = world.scenery[world.scenery[cell] : world.scenery[cell + 1]].tolist()

@@ -23,9 +23,7 @@ def crowded(seed, count=30):
     """Return many discs and booths in a small hexagon; discs may overlap nothing."""
     random = np.random.default_rng(seed)
     walls = polygon_walls(regular_polygon(6, 0.5), tall=bool(seed % 2))
-    booths = [
-        box(*random.uniform(-0.3, 0.3, 2), random.uniform(-3, 3), 0.12, 0.03, group=k) for k in (1, 2, 3)
-    ]
+    booths = [box(*random.uniform(-0.3, 0.3, 2), random.uniform(-3, 3), 0.12, 0.03, group=k) for k in (1, 2, 3)]
     middles = [(b.ax.mean(), b.ay.mean()) for b in booths]
     spots = []
     for spot in random.uniform(-0.38, 0.38, (4000, 2)):
@@ -129,9 +127,7 @@ def test_low_walls_and_low_boxes_hide_nothing():
 
 
 def test_a_booth_hides_what_is_behind_it_only():
-    world = make_world(
-        discs([(0, 0)]), outline([(0.2, -0.1), (0.3, -0.1), (0.3, 0.1), (0.2, 0.1)], tall=True, group=1)
-    )
+    world = make_world(discs([(0, 0)]), outline([(0.2, -0.1), (0.3, -0.1), (0.3, 0.1), (0.2, 0.1)], tall=True, group=1))
     assert not open_line(world, 0, 0, 0.5, 0)
     assert open_line(world, 0, 0, 0.19, 0)
     assert open_line(world, 0, 0.11, 0.5, 0.11)

@@ -20,13 +20,9 @@ FIELDS = ("x", "y", "heading", "speed_x", "speed_y", "turn_rate")
 def scene(turn=0.0, shift=(0.0, 0.0)):
     """Return 14 driven discs, some touching, round a box in a hexagon, all turned and shifted."""
     random = np.random.default_rng(3)
-    spots = np.array([(x, y) for x in (-0.14, -0.071, 0.072, 0.141) for y in (-0.1, -0.031, 0.038, 0.11)])[
-        :14
-    ]
+    spots = np.array([(x, y) for x in (-0.14, -0.071, 0.072, 0.141) for y in (-0.1, -0.031, 0.038, 0.11)])[:14]
     turned = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
-    bodies = discs(
-        spots @ turned + shift, random.uniform(-3, 3, 14) + turn, 0.1, turning=random.uniform(-1, 1, 14)
-    )
+    bodies = discs(spots @ turned + shift, random.uniform(-3, 3, 14) + turn, 0.1, turning=random.uniform(-1, 1, 14))
     corners = np.array(regular_polygon(6, 0.25)) @ turned + shift
     block = box(*(np.array([0.0, 0.05]) @ turned + shift), 0.4 + turn, 0.04, 0.06)
     return bodies, joined(outline(corners), block)

@@ -80,9 +80,7 @@ def test_the_side_tells_time_and_counts(trial):
 def test_what_is_drawn_over_a_copy_is_what_is_drawn_anew(trial):
     """Movie pictures come from a shortcut; they must be the pictures that the long way gives."""
     picture = Overhead(trial.scene)
-    shortcut = [
-        image.copy() for image in images(picture, trial.frames, np.array([0, 20, 60]), lambda *_: None)
-    ]
+    shortcut = [image.copy() for image in images(picture, trial.frames, np.array([0, 20, 60]), lambda *_: None)]
     for image, index in zip(shortcut, (0, 20, 60)):
         fresh = Overhead(trial.scene)
         fresh.show(trial.frames, index)
@@ -147,9 +145,7 @@ def test_a_timeline_is_drawn_for_one_and_for_many_robots(trial, tmp_path):
 def test_run_times_are_drawn_with_and_without_published_runs(tmp_path):
     reached = run_times([10.0, 20.0, None], [30.0] * 3)
     never = run_times([None, None], [30.0] * 2)
-    draw_run_times(
-        {"one": reached, "two": never}, {"one": reached}, tmp_path / "both.png", published_label="x"
-    )
+    draw_run_times({"one": reached, "two": never}, {"one": reached}, tmp_path / "both.png", published_label="x")
     draw_run_times({"one": reached, "two": never}, {}, tmp_path / "ours.png")
     assert imread(tmp_path / "both.png").shape == imread(tmp_path / "ours.png").shape == (700, 1000, 4)
 
@@ -162,9 +158,7 @@ def test_a_picture_that_cannot_be_written_is_named(trial, tmp_path):
 
 def test_a_booth_with_an_opening_is_lit_inside():
     wall = 0.1
-    bent = np.array(
-        [[0, 0], [3, 0], [3, 3], [0, 3], [0, 3 - wall], [3 - wall, 3 - wall], [3 - wall, wall], [0, wall]]
-    )
+    bent = np.array([[0, 0], [3, 0], [3, 3], [0, 3], [0, 3 - wall], [3 - wall, 3 - wall], [3 - wall, wall], [0, wall]])
     assert area(bent) == pytest.approx(3 * wall * 2 + (3 - 2 * wall) * wall)
     assert area(hull(bent)) == pytest.approx(9)
     scene = Scene(

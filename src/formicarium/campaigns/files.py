@@ -81,7 +81,6 @@ def read_json(path: Path) -> dict[str, Any]:
             raise ValueError("not an object")
     except (ValueError, OSError) as error:
         raise StoreError(
-            f"{path} is damaged ({error}). Move it away or choose another folder, "
-            "then run the same command again."
+            f"{path} is damaged ({error}). Move it away or choose another folder, then run the same command again."
         ) from error
     return content

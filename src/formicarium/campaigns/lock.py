@@ -27,8 +27,7 @@ def acquire(folder: Path) -> IO[str]:
     except OSError as error:
         file.close()
         raise StoreError(
-            f"{folder} is in use: another process is writing to it. "
-            "Wait for it to end, or choose another folder."
+            f"{folder} is in use: another process is writing to it. Wait for it to end, or choose another folder."
         ) from error
     return file
 

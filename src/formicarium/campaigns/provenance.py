@@ -40,9 +40,7 @@ def _git(folder: Path, *arguments: str) -> str | None:
     # A package in site-packages may lie inside somebody else's repository: only tracked sources count.
     try:
         for line in (("ls-files", "--error-unmatch", "__init__.py"), arguments):
-            answer = subprocess.run(
-                ["git", *line], cwd=folder, capture_output=True, text=True, timeout=10, check=True
-            )
+            answer = subprocess.run(["git", *line], cwd=folder, capture_output=True, text=True, timeout=10, check=True)
     except (OSError, subprocess.SubprocessError):
         return None
     return answer.stdout.strip()

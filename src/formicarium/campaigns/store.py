@@ -84,11 +84,7 @@ class Store:
         Returns the run as it was kept.
         """
         seed, result = finished.seed, finished.result
-        if (
-            result is not None
-            and seed in self.rows
-            and not _same({"seed": seed, **result.row}, self.rows[seed])
-        ):
+        if result is not None and seed in self.rows and not _same({"seed": seed, **result.row}, self.rows[seed]):
             reason = f"seed {seed} was run again and gave another row than the one stored: it does not repeat"
             finished, result = finished._replace(result=None, failure=reason), None
         if result is None:

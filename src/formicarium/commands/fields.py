@@ -100,9 +100,7 @@ def _find(model: type[BaseModel], name: str) -> NamedField:
         raise UserError(f"--set {name}: ambiguous, say which: {', '.join(field.path for field in matches)}")
     names = [field.path for field in known] + [field.name for field in known]
     close = near(name, dict.fromkeys(names))
-    raise UserError(
-        f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM"
-    )
+    raise UserError(f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM")
 
 
 def _value(field: NamedField, text: str) -> Any:

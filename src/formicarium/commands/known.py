@@ -21,9 +21,7 @@ def find_system(name: str) -> System:
         raise UserError(f"{error}.{near(name, names())}") from error
 
 
-def parameters_of(
-    system: System, setting: int | None, robots: int | None, settings: Iterable[str]
-) -> BaseModel:
+def parameters_of(system: System, setting: int | None, robots: int | None, settings: Iterable[str]) -> BaseModel:
     """Return the parameters of a published setting, with a number of robots and single settings changed.
 
     Raises:

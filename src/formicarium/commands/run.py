@@ -58,6 +58,4 @@ def run(
     """
     from formicarium.commands.session import Request, perform
 
-    return perform(
-        Request(system, runs, seed, robots, setting, tuple(set_ or ()), out, workers, movie, frames)
-    )
+    return perform(Request(system, runs, seed, robots, setting, tuple(set_ or ()), out, workers, movie, frames))

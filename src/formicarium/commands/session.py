@@ -85,9 +85,7 @@ def perform(request: Request) -> int:
             for seed in sorted({*every} & {*store.rows}):
                 progress.note(f"drawing seed {seed}")
                 stills = len(seeds) == 1
-                pictures += draw_run(
-                    system, store, seed, folder, stills, _has_movie(request, seed), progress.inside
-                )
+                pictures += draw_run(system, store, seed, folder, stills, _has_movie(request, seed), progress.inside)
         print_summary(screen, system, store, seeds, report, folder, pictures)
         return _report_failures(report, folder)
 

@@ -22,9 +22,7 @@ def result_of(trial: Trial, kinds: tuple[str, ...], frames_every: float | None) 
     return Result(dict(trial.outcome), tables)
 
 
-def trial_of(
-    row: Mapping[str, Any], events: pa.Table, frames: pa.Table | None, kinds: tuple[str, ...]
-) -> Trial:
+def trial_of(row: Mapping[str, Any], events: pa.Table, frames: pa.Table | None, kinds: tuple[str, ...]) -> Trial:
     """Put a trial together again from its row and tables."""
     outcome = {name: value for name, value in row.items() if name != "seed"}
     scene = _scene(metadata_of(events.schema)["scene"])
@@ -61,9 +59,7 @@ def _scene(text: str) -> Scene:
 
 def _frames_table(frames: Frames) -> pa.Table:
     """One row a frame; what belongs to robots or devices is a list in their order."""
-    lists = {
-        name: _lists(getattr(frames, name)) for name in Frames._fields if name not in ("cycle", "identity")
-    }
+    lists = {name: _lists(getattr(frames, name)) for name in Frames._fields if name not in ("cycle", "identity")}
     identity = {"identity_of_robots": json.dumps(frames.identity.tolist())}
     return with_metadata(pa.table({"cycle": frames.cycle, **lists}), identity)
 

@@ -23,18 +23,14 @@ def run_trial(
 ) -> Trial:
     """Run one trial of a system known by name, with parameters as JSON; importable by worker processes."""
     found = resolve(system)
-    return found.run(
-        found.parameters.model_validate_json(parameters), seed, frames_every=frames_every, watch=watch
-    )
+    return found.run(found.parameters.model_validate_json(parameters), seed, frames_every=frames_every, watch=watch)
 
 
 class ChangedSources(RuntimeError):
     """A worker found other sources than those that the identity of the results stands for."""
 
 
-def function_of(
-    name: str, parameters: BaseModel, frames_every: Mapping[int, float], sources: str
-) -> Function:
+def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, float], sources: str) -> Function:
     """Return the function that a set repeats.
 
     Args:

@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.robots.records import EMITTERS, PAYLOAD, SILENCE, Colour
 
 

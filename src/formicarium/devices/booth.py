@@ -9,7 +9,8 @@ import math
 import numpy as np
 
 from formicarium.compiled import compiled
-from formicarium.devices.infrared import (
+from formicarium.physics.world import outline
+from formicarium.robots.infrared import (
     CLAIM,
     HEARD_HIGH,
     HEARD_LOW,
@@ -17,7 +18,6 @@ from formicarium.devices.infrared import (
     LOW_HALF,
     WORKING,
 )
-from formicarium.physics.world import outline
 from formicarium.robots.records import SILENCE, Colour
 from formicarium.streams import advanced, uniform
 from formicarium.tables import Table, number

@@ -7,7 +7,7 @@ robot claims. Immediate feedback (TS-26): every task gets a verdict.
 import numpy as np
 
 from formicarium.compiled import compiled
-from formicarium.devices.infrared import FAILURE, SUCCESS
+from formicarium.robots.infrared import FAILURE, SUCCESS
 
 IDENTITIES = 256
 
@@ -17,7 +17,10 @@ COORDINATOR = np.dtype(
         ("order", "i8", 8),  # task colours in the correct order
         ("done", "i8", IDENTITIES),  # tasks done in a row by the robot of that identity
         ("faults", "i8"),  # claims that disagreed with the record
-        ("always_negative", "i8"),  # colour of a booth that answers failure to everybody, 0 for none (for tests)
+        (
+            "always_negative",
+            "i8",
+        ),  # colour of a booth that answers failure to everybody, 0 for none (for tests)
     ],
     align=True,
 )

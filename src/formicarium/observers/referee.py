@@ -10,7 +10,11 @@ REFEREE = np.dtype(
     [
         ("booth", "i8"),  # index of the booth the robot's centre is inside, -1 if none
         ("since", "i8"),  # cycle at which it came in
-        ("history", "i8", TASKS),  # colours of the last tasks done since the last counted sequence, newest last
+        (
+            "history",
+            "i8",
+            TASKS,
+        ),  # colours of the last tasks done since the last counted sequence, newest last
         ("length", "i8"),
         ("last", "i8"),  # colour of the last task done, 0 if none
         ("executions", "i8"),

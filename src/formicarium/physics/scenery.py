@@ -17,9 +17,7 @@ def joined(*pieces: np.ndarray) -> np.recarray:
     return np.concatenate([np.zeros(0, SEGMENT), *pieces]).view(np.recarray)
 
 
-def chain(
-    points: Sequence[Point], friction: float = WALL_FRICTION, tall: bool = False, group: int = 0
-) -> np.recarray:
+def chain(points: Sequence[Point], friction: float = WALL_FRICTION, tall: bool = False, group: int = 0) -> np.recarray:
     """Return the open line through the points (m)."""
     segments = records(SEGMENT, len(points) - 1)
     corners = np.asarray(points, float)

@@ -26,9 +26,7 @@ class Epuck(Table):
     wheel_radius: float = number(0.0205, "m", "[model]", gt=0)
     steps_per_turn: float = number(1000.0, "1", "stepper motor: 20 steps, gear 50 to 1 [data sheet]", gt=0)
     speed_limit: float = number(0.12, "m/s", "wheel speed at the rim is cut to this [choice U1]", gt=0)
-    wheel_noise: float = number(
-        0.05, "1", "standard deviation of a wheel's speed, relative [choice TS-19]", ge=0, le=1
-    )
+    wheel_noise: float = number(0.05, "1", "standard deviation of a wheel's speed, relative [choice TS-19]", ge=0, le=1)
 
     proximity_start: float = number(0.035, "m", "distance of the sensors from the centre [choice]", gt=0)
     proximity_reach: float = number(0.05, "m", "[model]", gt=0)
@@ -41,7 +39,9 @@ class Epuck(Table):
     radio_distance_noise_floor: float = number(0.03, "m", "least standard deviation [choice TS-19]", ge=0)
     radio_bearing_noise: float = number(math.radians(8.0), "rad", "standard deviation [choice TS-19]", ge=0)
 
-    camera_range: float = number(0.332, "m", "to a robot's light: 0.122 m tan 70 deg, less height [model]", gt=0, le=0.8)
+    camera_range: float = number(
+        0.332, "m", "to a robot's light: 0.122 m tan 70 deg, less height [model]", gt=0, le=0.8
+    )
     camera_distance_noise: float = number(0.013, "m", "standard deviation [model]", ge=0)
     camera_bearing_noise: float = number(math.radians(2.0), "rad", "standard deviation [choice TS-19]", ge=0)
     camera_miss: float = number(0.05, "1", "probability that a light is missed in a cycle [choice TS-19]", ge=0, le=1)

@@ -32,9 +32,7 @@ def log_rank(
 
 def fisher(successes: int, runs: int, other_successes: int, other_runs: int) -> Comparison:
     """Compare two shares (Fisher's exact test). The statistic is the sample odds ratio."""
-    result = stats.fisher_exact(
-        [[successes, runs - successes], [other_successes, other_runs - other_successes]]
-    )
+    result = stats.fisher_exact([[successes, runs - successes], [other_successes, other_runs - other_successes]])
     return Comparison("Fisher exact", float(result.statistic), float(result.pvalue))
 
 

@@ -54,9 +54,7 @@ def run_times(times: Sequence[float | None], ends: Sequence[float], confidence: 
         ValueError: if there are no runs, or the lengths differ.
     """
     if len(times) != len(ends) or not len(times):
-        raise ValueError(
-            f"need one end for each of at least one run, got {len(times)} times, {len(ends)} ends"
-        )
+        raise ValueError(f"need one end for each of at least one run, got {len(times)} times, {len(ends)} ends")
     reached = np.array([time is not None and math.isfinite(time) for time in times])
     seconds = np.array([time if there else end for time, end, there in zip(times, ends, reached)], float)
     estimate = stats.ecdf(stats.CensoredData.right_censored(seconds, ~reached)).cdf

@@ -22,9 +22,7 @@ class Targets(NamedTuple):
     """Columns of the outcome row that hold times, for run-time distributions."""
 
     columns: Mapping[str, str]  # outcome column -> label ("time_10_s" -> "10 sequences")
-    published: Mapping[
-        str, tuple[float, ...]
-    ]  # outcome column -> the paper's run times, seconds; inf = not reached
+    published: Mapping[str, tuple[float, ...]]  # outcome column -> the paper's run times, seconds; inf = not reached
     published_label: str  # what the published curve is ("10 runs of 20 e-pucks, Garattoni & Birattari 2018")
     published_cap: float  # seconds after which the published runs were ended
 
@@ -36,9 +34,7 @@ class System(NamedTuple):
     summary: str  # one line, for listings and --help
     parameters: type[BaseModel]  # nested groups of named numbers with unit, source and bounds
     configure: Callable[..., BaseModel]  # (setting: int | None, robots: int | None) -> parameters
-    run: Callable[
-        ..., Trial
-    ]  # (parameters, seed, *, frames_every: float | None, watch: Callable | None) -> Trial
+    run: Callable[..., Trial]  # (parameters, seed, *, frames_every: float | None, watch: Callable | None) -> Trial
     kinds: tuple[str, ...]  # names of the event kinds, in the order of their numbers
     targets: Targets
     timeline: Callable[[Trial], Timeline]  # what the timeline figure shows

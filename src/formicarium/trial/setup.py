@@ -35,7 +35,13 @@ def inside_convex(corners: np.ndarray, x: float, y: float, margin: float) -> boo
 
 
 def random_places(
-    count: int, corners: np.ndarray, keep_off: np.ndarray, off: float, seed: int, apart: float = 0.08, margin: float = 0.06
+    count: int,
+    corners: np.ndarray,
+    keep_off: np.ndarray,
+    off: float,
+    seed: int,
+    apart: float = 0.08,
+    margin: float = 0.06,
 ) -> np.ndarray:
     """Return ``count`` places (x, y, heading), uniform, ``apart`` from each other and ``margin`` from walls (U42).
 
@@ -61,7 +67,12 @@ def random_places(
 
 
 def make_crew(
-    places: np.ndarray, epuck: Epuck, seed: int, failure_rate: float, cycle_time: float, storage: np.ndarray | None = None
+    places: np.ndarray,
+    epuck: Epuck,
+    seed: int,
+    failure_rate: float,
+    cycle_time: float,
+    storage: np.ndarray | None = None,
 ) -> Crew:
     """Return the robots at their places, with identities, noise streams and times of death.
 

@@ -40,8 +40,8 @@ class Album:
 
     def frames(self) -> Frames:
         """Return all frames."""
-        columns = [np.array(column) for column in zip(*self.rows, strict=True)]
-        return Frames(*columns, identity=self.identity)
+        cycle, x, y, heading, role, carried, lit = (np.array(column) for column in zip(*self.rows, strict=True))
+        return Frames(cycle, x, y, heading, role, carried, lit, self.identity)
 
 
 def drain(state: Any) -> np.ndarray:

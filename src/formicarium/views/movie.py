@@ -23,9 +23,7 @@ def suffix() -> str:
     return ".mp4" if find_spec("imageio_ffmpeg") else ".gif"
 
 
-def draw_movie(
-    scene: Scene, frames: Frames, path: Path, title: str = "", progress: Progress | None = None
-) -> Path:
+def draw_movie(scene: Scene, frames: Frames, path: Path, title: str = "", progress: Progress | None = None) -> Path:
     """Write all frames, 30 a second, to ``path`` with the suffix of this installation; return that path.
 
     Frames are drawn and written one by one, so a long trial needs no more memory than a short one. A GIF

@@ -101,9 +101,7 @@ class Overhead:
         length = 0.5 if half > 0.6 else 0.1
         start = middle - half + 0.05 * half
         self.axes.plot([start[0], start[0] + length], [start[1]] * 2, color=INK, linewidth=2)
-        self.axes.text(
-            start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK
-        )
+        self.axes.text(start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK)
 
     def _make_moving(self) -> None:
         devices = [polygon for polygon in self.scene.polygons if polygon.colour != "wall"]
@@ -126,9 +124,7 @@ class Overhead:
             linewidths=0,
             zorder=3,
         )
-        self.chain = LineCollection(
-            [], colors="#c9a400", linewidths=7, alpha=0.35, capstyle="round", zorder=3
-        )
+        self.chain = LineCollection([], colors="#c9a400", linewidths=7, alpha=0.35, capstyle="round", zorder=3)
         self.bodies = EllipseCollection(
             [2 * self.scene.radius],
             [2 * self.scene.radius],

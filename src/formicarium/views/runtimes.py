@@ -64,9 +64,7 @@ def draw_run_times(
     ]
     figure.text(0.095, 0.958, title, size=12, color=INK, weight="bold", va="center")
     style = {"frameon": False, "fontsize": 9.5, "columnspacing": 1.6, "borderaxespad": 0.0}
-    figure.legend(
-        handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.93), ncols=len(targets), **style
-    )
+    figure.legend(handles=targets, loc="upper left", bbox_to_anchor=(0.087, 0.93), ncols=len(targets), **style)
     figure.legend(
         handles=sources[: 2 if published else 1],
         loc="upper left",
@@ -86,18 +84,12 @@ def _draw_measured(axes: Axes, distribution: RunTimes, end: float, colour: str) 
 
 
 def _draw_published(axes: Axes, distribution: RunTimes, end: float, colour: str) -> None:
-    axes.step(
-        *_steps(distribution, distribution.share, 0.0, end), where="post", color=colour, lw=1.4, ls="--"
-    )
+    axes.step(*_steps(distribution, distribution.share, 0.0, end), where="post", color=colour, lw=1.4, ls="--")
     new = np.diff(np.concatenate([[0.0], distribution.share])) > 0
-    axes.plot(
-        distribution.times[new], distribution.share[new], "o", color=colour, markersize=4, clip_on=False
-    )
+    axes.plot(distribution.times[new], distribution.share[new], "o", color=colour, markersize=4, clip_on=False)
 
 
-def _steps(
-    distribution: RunTimes, values: np.ndarray, before: float, end: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _steps(distribution: RunTimes, values: np.ndarray, before: float, end: float) -> tuple[np.ndarray, np.ndarray]:
     """Corners of a step curve from its first rise to the end of its runs, or of the axis if all are there."""
     last = end if distribution.reached == distribution.runs else distribution.end
     times = np.concatenate([distribution.times[:1], distribution.times, [last]])

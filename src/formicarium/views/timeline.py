@@ -65,8 +65,7 @@ def _draw_lanes(axes: Axes, timeline: Timeline, roles: tuple[str, ...]) -> None:
     axes.spines[["left", "bottom"]].set_visible(False)
     present = sorted({span.role for span in timeline.spans})
     handles = [
-        Patch(facecolor=styles[role].fill, edgecolor=PALE_INK, linewidth=0.5, label=roles[role])
-        for role in present
+        Patch(facecolor=styles[role].fill, edgecolor=PALE_INK, linewidth=0.5, label=roles[role]) for role in present
     ]
     axes.legend(
         handles=handles,

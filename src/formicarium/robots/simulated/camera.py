@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.physics.rays import open_line
 from formicarium.robots.records import BLOBS, Colour
 from formicarium.robots.simulated.channels import CAMERA

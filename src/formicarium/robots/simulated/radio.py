@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.physics.rays import bodies_in_line_of_sight
 from formicarium.robots.records import EMITTERS, PAYLOAD
 from formicarium.robots.simulated.channels import RADIO
@@ -72,4 +72,14 @@ def sense_packets(world, i, robots, commands, queue, epuck, moment, reading):
         used += 1
         noise = advanced(mixed(queue[place].draw))
         packet = reading.packets[reading.packet_count]
-        receive(robots[i], packet, commands[j], emitter, neighbour.distance, line - body.heading, noise, epuck, reading)
+        receive(
+            robots[i],
+            packet,
+            commands[j],
+            emitter,
+            neighbour.distance,
+            line - body.heading,
+            noise,
+            epuck,
+            reading,
+        )

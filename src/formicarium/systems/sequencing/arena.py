@@ -26,7 +26,11 @@ def make_arena(table: ArenaTable, friction: float) -> Arena:
 
 
 def build_arena(
-    corners: np.ndarray, places: list[tuple[int, float]], tam_offset: float, wall_friction: float, friction: float
+    corners: np.ndarray,
+    places: list[tuple[int, float]],
+    tam_offset: float,
+    wall_friction: float,
+    friction: float,
 ) -> Arena:
     """Return the arena of any convex polygon.
 

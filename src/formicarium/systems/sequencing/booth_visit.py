@@ -5,7 +5,7 @@ import math
 from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to
-from formicarium.devices.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
+from formicarium.robots.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
 from formicarium.robots.records import SILENCE
 from formicarium.systems.sequencing.guardian import become_guardian
 from formicarium.systems.sequencing.memory import State, enter
@@ -60,9 +60,8 @@ def approach(reading, memory, command, table, epuck):
     distance = distance_to(memory.target)
     inside = memory.target.known == 1 and distance < INSIDE
     dark = cycle - memory.target.seen
-    if inside and dark > table.exchange_patience:
-        turn_round(memory, cycle)  # no answer
-        memory.exchange = SILENCE
+    if inside and dark > table.settle_time:
+        enter(memory, State.EXCHANGE, cycle)  # the lights went out because this robot is in; no answer yet
         return
     if (not inside and dark > table.lights_lost_after) or cycle - memory.since > table.approach_patience:
         enter(memory, State.FOLLOW, cycle)

@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.moves import steer
 from formicarium.robots.epuck import PROXIMITY_ANGLES, PROXIMITY_COSINES, PROXIMITY_SINES
 from formicarium.robots.records import PROXIMITY_SENSORS

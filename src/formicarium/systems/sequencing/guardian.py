@@ -2,12 +2,18 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.moves import stop
 from formicarium.control.odometry import bearing_to
 from formicarium.robots.records import Colour
-from formicarium.systems.sequencing.member import begin_message, hear_requests, relieved, send, send_invitation
+from formicarium.systems.sequencing.member import (
+    begin_message,
+    hear_requests,
+    relieved,
+    send,
+    send_invitation,
+)
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.messages import is_notification
 from formicarium.systems.sequencing.perception import locate_lights

@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.moves import shift
 from formicarium.control.odometry import bearing_to
 from formicarium.robots.records import Colour
@@ -22,33 +22,31 @@ def become_link(memory, cycle):
 
 
 @compiled
-def distance_component(predecessor, successor, spacing, tolerance):
+def distance_component(predecessor, successor, spacing):
     """Return (x, y, error): a unit vector to or from the neighbour whose distance is most wrong (TS-67).
 
-    Zero within the tolerance. ``error`` is that neighbour's distance less ``spacing``, m.
+    ``error`` is that neighbour's distance less ``spacing``, m.
     """
     behind = distance_error(predecessor, spacing)
     ahead = distance_error(successor, spacing)
-    worst = behind if abs(behind) > abs(ahead) else ahead
-    if abs(worst) <= tolerance:
-        return 0.0, 0.0, worst
     bearing = bearing_to(predecessor) if abs(behind) > abs(ahead) else bearing_to(successor)
+    worst = behind if abs(behind) > abs(ahead) else ahead
     sign = 1.0 if worst > 0.0 else -1.0
     return sign * math.cos(bearing), sign * math.sin(bearing), worst
 
 
 @compiled
-def alignment_component(alpha, beta, tolerance):
+def alignment_component(alpha, beta):
     """Return (x, y, error): a unit vector at gamma, the mean direction of the neighbours' bearings (TS-68).
 
-    gamma = atan2(sin alpha + sin beta, cos alpha + cos beta); error = pi - |alpha - beta|, in [0, pi] (TS-69).
-    Zero within the tolerance and where gamma is undefined.
+    gamma = atan2(sin alpha + sin beta, cos alpha + cos beta), zero vector where that is undefined;
+    error = pi - |alpha - beta|, in [0, pi] (TS-69).
     """
     error = math.pi - abs(wrapped(alpha - beta))
     y = math.sin(alpha) + math.sin(beta)
     x = math.cos(alpha) + math.cos(beta)
     length = math.sqrt(x * x + y * y)
-    if error <= tolerance or length < ALIGNED:
+    if length < ALIGNED:
         return 0.0, 0.0, error
     return x / length, y / length, error
 
@@ -57,21 +55,24 @@ def alignment_component(alpha, beta, tolerance):
 def keep_in_line(predecessor, successor, command, table, tolerance, wheel_distance):
     """Move by the sum of the distance and the alignment component; tell whether both were within tolerance.
 
-    Full speed at an error of twice the printed tolerance, less in proportion below (TS-74).
+    A link rests while both errors are within tolerance and else mends both ("every movement of a link consists
+    of two components", Fig. S6): each component counts in proportion to its error, fully from the tolerance on.
+    With ``separate_tolerances`` a component within its tolerance is left out; then aligning shortens the branch.
     """
-    distance_x, distance_y, gap = distance_component(predecessor, successor, table.spacing, tolerance)
-    align_x, align_y, angle = alignment_component(
-        bearing_to(successor), bearing_to(predecessor), table.alignment_tolerance
-    )
-    x = distance_x + align_x
-    y = distance_y + align_y
-    if x * x + y * y < ALIGNED:
-        return distance_x == 0.0 and align_x == 0.0 and distance_y == 0.0 and align_y == 0.0
-    urgency = max(
-        abs(gap) / (2.0 * table.spacing_tolerance) if distance_x != 0.0 or distance_y != 0.0 else 0.0,
-        angle / (2.0 * table.alignment_tolerance) if align_x != 0.0 or align_y != 0.0 else 0.0,
-    )
-    speed = table.member_speed * min(1.0, urgency)
+    distance_x, distance_y, gap = distance_component(predecessor, successor, table.spacing)
+    align_x, align_y, angle = alignment_component(bearing_to(successor), bearing_to(predecessor))
+    far = abs(gap) > tolerance
+    askew = angle > table.alignment_tolerance
+    if not far and not askew:
+        return True
+    distance_weight = min(1.0, abs(gap) / tolerance)
+    align_weight = min(1.0, angle / table.alignment_tolerance)
+    if table.separate_tolerances == 1:
+        distance_weight = 1.0 if far else 0.0
+        align_weight = 1.0 if askew else 0.0
+    x = distance_weight * distance_x + align_weight * align_x
+    y = distance_weight * distance_y + align_weight * align_y
+    speed = table.member_speed * min(1.0, math.sqrt(x * x + y * y))
     shift(command, math.atan2(y, x), speed, table.steering_gain, table.turn_rate, wheel_distance)
     return False
 
@@ -115,7 +116,12 @@ def link(reading, memory, command, table, epuck):
         cycle = reading.cycle
         if in_view(memory.predecessor, cycle, table) and in_view(memory.successor, cycle, table):
             keep_in_line(
-                memory.predecessor, memory.successor, command, table, table.spacing_tolerance, epuck.wheel_distance
+                memory.predecessor,
+                memory.successor,
+                command,
+                table,
+                table.spacing_tolerance,
+                epuck.wheel_distance,
             )
         if hear_established(reading, memory):
             memory.established = 1

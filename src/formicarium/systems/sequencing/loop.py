@@ -21,7 +21,13 @@ def run(state, cycles):
         # Every robot decides from its own reading and memory alone.
         for i in range(len(state.robots)):
             if state.robots[i].alive == 1:
-                decide(state.readings[i], state.memories[i], state.commands[i], state.behaviour[0], state.epuck[0])
+                decide(
+                    state.readings[i],
+                    state.memories[i],
+                    state.commands[i],
+                    state.behaviour[0],
+                    state.epuck[0],
+                )
 
         # Wheels turn, lights and radios change, bodies move and push.
         act(state)

@@ -7,8 +7,8 @@ import numpy as np
 
 from formicarium.compiled import compiled
 from formicarium.devices.booth import BAY_END, BAY_HALF_WIDTH, HALF
-from formicarium.devices.infrared import SUCCESS
 from formicarium.observers.referee import executed, locate
+from formicarium.robots.infrared import SUCCESS
 from formicarium.systems.sequencing.memory import Role
 from formicarium.trial.events import write_event
 
@@ -162,9 +162,7 @@ def note_guardian(state, i):
     who = state.robots[i].identity
     new = member.role != Role.GUARDIAN
     if new or memory.condition != member.condition or memory.confident != member.confident:
-        write_event(
-            clock, state.events, EventKind.CONDITION, who, memory.colour, memory.condition, memory.confident
-        )
+        write_event(clock, state.events, EventKind.CONDITION, who, memory.colour, memory.condition, memory.confident)
         if not new and not founded(state, memory.notified_by, memory.colour):
             write_event(clock, state.events, EventKind.UNFOUNDED, who, memory.colour, memory.notified_by, 0)
     if memory.established == 1 and member.established == 0:
@@ -285,9 +283,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
 STALLED = 600.0  # s without a new sequence at the end of a trial count as a standstill
 
 
-def cause(
-    row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycle_time: float
-) -> str:
+def cause(row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycle_time: float) -> str:
     """Name why a trial failed, from its event log: the first of these that applies."""
     free = robots - row["members"] - row["died"]
     if row["guardians"] < tasks:

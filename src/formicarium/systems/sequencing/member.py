@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.odometry import bearing_to, distance_to, place
 from formicarium.control.speech import broadcast, emitter_direction, in_sector
 from formicarium.robots.records import EMITTERS, Colour

@@ -1,18 +1,18 @@
 """The four-byte message of Mark I, bit by bit (Fig. S2; section 12.1 of our ledger).
 
-    DATA[0]        identity: own; in T_RES the chosen runner's; in an inhibition echo the initiator's
-    DATA[1] bit 0  request: T_REQ of a runner, T_RES of a tail
-            bit 1  direction: T_DIR of a tail (only in its sector), FEED of a runner's notification
-            bit 2  tail
-            bit 3  inhibit
-            bits 6:4  branch (BRN)
-    DATA[2] bits 4:0  link_number (LNK_NO), 0 for whoever is not a link or a tail
-            bit 5  in_chain
-            bit 6  established (EST)
-            bit 7  confident (CONF)
-    DATA[3] bits 2:0  count (CND of a guardian, CNT of a runner's notification)
-            bits 5:3  colour of the guarded task
-            bit 6  guardian
+DATA[0]        identity: own; in T_RES the chosen runner's; in an inhibition echo the initiator's
+DATA[1] bit 0  request: T_REQ of a runner, T_RES of a tail
+        bit 1  direction: T_DIR of a tail (only in its sector), FEED of a runner's notification
+        bit 2  tail
+        bit 3  inhibit
+        bits 6:4  branch (BRN)
+DATA[2] bits 4:0  link_number (LNK_NO), 0 for whoever is not a link or a tail
+        bit 5  in_chain
+        bit 6  established (EST)
+        bit 7  confident (CONF)
+DATA[3] bits 2:0  count (CND of a guardian, CNT of a runner's notification)
+        bits 5:3  colour of the guarded task
+        bit 6  guardian
 """
 
 import numpy as np
@@ -48,9 +48,7 @@ def encode(message, payload):
     payload[1] = (
         message.request | message.direction << 1 | message.tail << 2 | message.inhibit << 3 | message.branch << 4
     )
-    payload[2] = (
-        message.link_number | message.in_chain << 5 | message.established << 6 | message.confident << 7
-    )
+    payload[2] = message.link_number | message.in_chain << 5 | message.established << 6 | message.confident << 7
     payload[3] = message.count | message.colour << 3 | message.guardian << 6
 
 

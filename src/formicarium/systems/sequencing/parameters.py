@@ -26,7 +26,11 @@ class ArenaTable(Table):
     sides: int = number(6, "1", "of the regular polygon; booths stand on every second side [paper]", ge=4, le=8)
     side: float = number(0.9, "m", "length of a side [paper, Table 1]", gt=0.3, le=10)
     tam_offset: float = number(
-        0.0, "m", "how far a booth's mouth stands inside the wall line: 0 flush, 0.12 all inside [choice TS-36]", ge=0, le=0.12
+        0.0,
+        "m",
+        "how far a booth's mouth stands inside the wall line: 0 flush, 0.12 all inside [choice TS-36]",
+        ge=0,
+        le=0.12,
     )
     wall_friction: float = number(0.1, "1", "[model]", ge=0)
     turn: float = number(0.0, "rad", "the whole arena is turned by this (for tests)")
@@ -64,12 +68,16 @@ class BehaviourTable(Table):
     walk_turn_probability: float = number(0.01, "1/cycle", "U2", ge=0, le=1)
     walk_turn_least: float = number(degrees(30), "rad", "U2", ge=0)
     walk_turn_most: float = number(degrees(150), "rad", "U2", ge=0)
-    obstacle_value: float = number(0.15, "1", "proximity at which a walking robot turns; U2 says 0.1, noise is 0.05", ge=0)
+    obstacle_value: float = number(
+        0.15, "1", "proximity at which a walking robot turns; U2 says 0.1, noise is 0.05", ge=0
+    )
     turn_rate: float = number(2.0, "rad/s", "of turns on the spot", gt=0)
     steering_gain: float = number(3.0, "1/s", "turn rate per heading error", gt=0)
 
     # runner
-    unattended_after: int = number(20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1)
+    unattended_after: int = number(
+        20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1
+    )
     unattended_watch: int = number(5, "cycles", "and its booth must have been in sight for so long [choice]", ge=0)
     follow_speed: float = number(0.03, "m/s", "U3 [tuned on chain time]", gt=0)
     follow_distance: float = number(0.11, "m", "d-bar, kept to the reference point TS-98", gt=0)
@@ -85,20 +93,33 @@ class BehaviourTable(Table):
     approach_patience: int = number(200, "cycles", "then a runner gives up TS-107", ge=1)
     lights_lost_after: int = number(25, "cycles", "an approach whose lights are dark for so long is over [probe]", ge=1)
     straight_within: float = number(0.10, "m", "of the lights a robot drives straight on [probe]", gt=0)
+    settle_time: int = number(
+        10, "cycles", "a robot at the lights' place presses on so long after they went out [choice]", ge=1
+    )
     exchange_patience: int = number(100, "cycles", "a robot in the bay waits so long for the verdict [choice]", ge=1)
     retry_pause: int = number(30, "cycles", "before it enters again after a failed exchange U30", ge=0)
     retries: int = number(3, "1", "U30", ge=0)
     leave_distance: float = number(0.10, "m", "a visitor drives so far out of the bay U26", gt=0)
     exit_distance: float = number(0.25, "m", "a future guardian drives so far out [paper]", gt=0)
     lights_depth: float = number(0.035, "m", "of a booth's lights behind its middle [model]", ge=0)
-    exit_patience: int = number(600, "cycles", "a future guardian that is blocked so long stays where it is [choice]", ge=1)
+    exit_patience: int = number(
+        600, "cycles", "a future guardian that is blocked so long stays where it is [choice]", ge=1
+    )
     notify_patience: int = number(300, "cycles", "a runner repeats its notification at most so long [probe]", ge=1)
     notify_least: int = number(30, "cycles", "and at least so long U54", ge=0)
     notification_gate: float = number(0.45, "m", "a guardian hears notifications within this [choice, T15]", gt=0)
 
     # inhibition
     inhibition_distance: float = number(0.40, "m", "TS-106", ge=0)
-    inhibition_memory: int = number(30, "cycles", "inhibited robots resume after so long without a message TS-106", ge=1)
+    inhibition_ahead: float = number(
+        degrees(90),
+        "rad",
+        "only what is ahead inhibits: who is leaving clears the way by going on [choice]",
+        ge=0,
+    )
+    inhibition_memory: int = number(
+        30, "cycles", "inhibited robots resume after so long without a message TS-106", ge=1
+    )
     inhibition_leave: float = number(0.2, "1", "probability to leave instead TS-106", ge=0, le=1)
     inhibition_clearance: float = number(0.25, "m", "an inhibited robot backs off to this TS-106", ge=0)
     inhibition_echo: int = number(10, "cycles", "a guardian repeats an inhibition for so long [choice]", ge=0)
@@ -109,17 +130,26 @@ class BehaviourTable(Table):
     refuse_time: int = number(100, "cycles", "then it ignores invitations for so long TS-82", ge=0)
     offer_patience: int = number(30, "cycles", "TS-82", ge=1)
     sector_half_width: float = number(degrees(30), "rad", "of the invited sector U10", gt=0)
-    sector_tolerance: float = number(degrees(25), "rad", "a request must come from the sector, give or take this [probe]", ge=0)
+    sector_tolerance: float = number(
+        degrees(25), "rad", "a request must come from the sector, give or take this [probe]", ge=0
+    )
 
     # chain members
     spacing: float = number(0.17, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
     spacing_tolerance: float = number(0.05, "m", "[paper]", ge=0)
     alignment_tolerance: float = number(degrees(10), "rad", "[paper]", ge=0)
+    separate_tolerances: bool = number(
+        False, "1", "a link mends only the error that is out of tolerance, not both [choice]"
+    )
     member_speed: float = number(0.04, "m/s", "largest speed of links and tails TS-74", gt=0)
-    track_gate: float = number(0.07, "m", "a blob this near to where a neighbour should be is that neighbour [probe]", gt=0)
+    track_gate: float = number(
+        0.07, "m", "a blob this near to where a neighbour should be is that neighbour [probe]", gt=0
+    )
     track_gain: float = number(0.35, "1", "share of the new sighting in a neighbour's place [probe]", gt=0, le=1)
     track_refind: int = number(5, "cycles", "a neighbour unseen so long is looked for by its packets [probe]", ge=1)
-    track_lost: int = number(20, "cycles", "a link that has not seen a neighbour for so long stands still [choice]", ge=1)
+    track_lost: int = number(
+        20, "cycles", "a link that has not seen a neighbour for so long stands still [choice]", ge=1
+    )
     refind_gate: float = number(degrees(20), "rad", "bearing gate between packet and blob TS-73", gt=0)
 
     # tail

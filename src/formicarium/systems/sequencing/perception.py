@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.odometry import carry, measure, place
 from formicarium.robots.records import Colour
 from formicarium.systems.sequencing.memory import COLOURS
@@ -33,6 +33,7 @@ def perceive(reading, memory, table, epuck):
             message.inhibit == 1
             and message.identity != reading.identity
             and packet.distance < table.inhibition_distance
+            and abs(packet.bearing) < table.inhibition_ahead
         ):
             memory.inhibitor = message.identity
             memory.inhibition_heard = reading.cycle

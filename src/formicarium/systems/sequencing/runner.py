@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import distance_to
 from formicarium.robots.records import PROXIMITY_SENSORS, Colour
@@ -178,6 +178,16 @@ def hears_inhibition(reading, memory):
 
 
 @compiled
+def sees_task(reading):
+    """Tell whether a booth or a guardian is in view: the radio's range alone is too vague to tell who is near."""
+    for n in range(reading.blob_count):
+        colour = reading.blobs[n].colour
+        if Colour.OFF < colour <= Colour.CYAN:
+            return True
+    return False
+
+
+@compiled
 def respond_to_inhibition(reading, memory, table):
     """Keep clear of the task, or with a certain probability leave the area (TS-105, TS-106)."""
     cycle = reading.cycle
@@ -215,7 +225,7 @@ def roam(reading, memory, command, table, epuck):
         enter(memory, State.JOIN, cycle)
         return
     busy = wandering or memory.notifying == 1 or cycle < memory.inhibiting_until
-    if hears_inhibition(reading, memory) and not busy:
+    if hears_inhibition(reading, memory) and not busy and sees_task(reading):
         respond_to_inhibition(reading, memory, table)
     elif memory.state != State.FOLLOW and not wandering and meets_chain(reading, memory, table):
         enter(memory, State.FOLLOW, cycle)

@@ -47,7 +47,11 @@ class SequencingState(NamedTuple):
 
 
 def begin(
-    parameters: SequencingParameters, seed: int, *, storage: np.ndarray | None = None, arena: Arena | None = None
+    parameters: SequencingParameters,
+    seed: int,
+    *,
+    storage: np.ndarray | None = None,
+    arena: Arena | None = None,
 ) -> SequencingState:
     """Return the state of trial ``seed`` before its first cycle.
 

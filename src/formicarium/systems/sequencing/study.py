@@ -59,7 +59,7 @@ def run_trial(
     album = Album(state, frame_roles, lambda state: state.memories["count"])
     take = None if frames_every is None else lambda state: album.take(state, state.booths.occupied == 0)
     events = simulate(run, state, look=look, after_look=take, watch=watch)
-    row: dict[str, Any] = {"seed": seed, "robots": parameters.swarm.robots, "side_m": parameters.arena.side}
+    row: dict[str, Any] = {"robots": parameters.swarm.robots, "side_m": parameters.arena.side}
     row |= {"order": "".join(TASKS[int(c)][0].upper() for c in state.coordinator[0].order[: parameters.arena.tasks])}
     frames: Frames | None = album.frames() if frames_every is not None else None
     return Trial(row | outcome(state, events), events, frames, scene_of(parameters, state))

@@ -2,8 +2,8 @@
 
 import math
 
-from formicarium.compiled import compiled
 from formicarium.angles import wrapped
+from formicarium.compiled import compiled
 from formicarium.control.moves import shift, stop
 from formicarium.control.odometry import bearing_to, distance_to, place
 from formicarium.control.speech import in_sector
@@ -158,9 +158,7 @@ def dock(reading, memory, command, table, epuck):
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
         hear_requests(reading, memory, table, bearing_to(memory.successor))
         return
-    if not keep_in_line(
-        memory.predecessor, memory.successor, command, table, table.dock_band, epuck.wheel_distance
-    ):
+    if not keep_in_line(memory.predecessor, memory.successor, command, table, table.dock_band, epuck.wheel_distance):
         memory.settled = cycle
 
 
