@@ -79,7 +79,7 @@ class BehaviourTable(Table):
         20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1
     )
     unattended_watch: int = number(5, "cycles", "and its booth must have been in sight for so long [choice]", ge=0)
-    follow_speed: float = number(0.03, "m/s", "U3 [tuned on chain time]", gt=0)
+    follow_speed: float = number(0.05, "m/s", "U3 [tuned on chain time]", gt=0)
     follow_distance: float = number(0.11, "m", "d-bar, kept to the reference point TS-98", gt=0)
     radial_gain: float = number(1.5, "1", "TS-96", gt=0)
     literal_line: bool = number(False, "1", "do not clamp the foot of the perpendicular to the segment TS-97")
@@ -155,8 +155,8 @@ class BehaviourTable(Table):
     # tail
     position_band: float = number(0.02, "m", "dead band of the tail's distance servo [probe]", ge=0)
     position_hold: int = number(10, "cycles", "in place so long before it invites TS-77", ge=0)
-    sweep_idle: int = number(200, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
-    sweep_burst: int = number(10, "cycles", "U13 [tuned]", ge=1)
+    sweep_idle: int = number(120, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
+    sweep_burst: int = number(20, "cycles", "U13 [tuned]", ge=1)
     sweep_pause: int = number(50, "cycles", "U13", ge=0)
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
