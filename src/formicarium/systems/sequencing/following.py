@@ -80,7 +80,7 @@ def repulsion(reading, bearing, threshold):
 def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
     """Steer along the chain whose nearest place is (x, y)."""
     vx, vy = circle_direction(x, y, table.follow_distance, table.radial_gain)
-    if at_guardian < 2:  # the wall beside a guardian is no obstacle
+    if not at_guardian:  # the wall beside a guardian is no obstacle
         push_x, push_y = repulsion(reading, math.atan2(y, x), table.repulsion_value)
         vx += table.repulsion_weight * push_x
         vy += table.repulsion_weight * push_y

@@ -78,6 +78,7 @@ class BehaviourTable(Table):
     unattended_after: int = number(
         20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1
     )
+    attended_within: float = number(0.35, "m", "nor is a task unattended while a guardian's light is this near [choice]", ge=0)
     unattended_watch: int = number(5, "cycles", "and its booth must have been in sight for so long [choice]", ge=0)
     follow_speed: float = number(0.05, "m/s", "U3 [tuned on chain time]", gt=0)
     follow_distance: float = number(0.11, "m", "d-bar, kept to the reference point TS-98", gt=0)

@@ -95,8 +95,11 @@ def meets_chain(reading, memory, table):
 
 @compiled
 def meets_unattended_task(reading, memory, table):
-    """Tell whether a booth has been in view for a while whose guardian is not heard; begins the visit."""
+    """Tell whether a booth has been in view for a while whose guardian is neither heard nor seen; begins the visit."""
     cycle = reading.cycle
+    if nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.attended_within) >= 0:
+        memory.watched = 0
+        return False
     for n in range(reading.blob_count):
         colour = reading.blobs[n].colour
         if Colour.OFF < colour < Colour.CYAN and unattended(memory, colour, cycle, table):
