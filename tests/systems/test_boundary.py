@@ -11,6 +11,7 @@ import pytest
 from formicarium.physics.records import records
 from formicarium.robots.records import COMMAND, READING
 from formicarium.systems.sequencing.behaviour import decide
+from formicarium.systems.sequencing.loop import run
 from formicarium.systems.sequencing.memory import MEMORY, Role
 from formicarium.systems.sequencing.parameters import mark_i3_parameters
 from formicarium.systems.sequencing.setup import begin
@@ -88,8 +89,6 @@ def test_nothing_in_a_reading_is_a_place_in_the_world_or_somebody_elses_memory()
 
 def test_the_stage_runs_the_loop_as_the_system_does():
     """What the other tests stand on: the loop from outside is the loop."""
-    from formicarium.systems.sequencing.loop import run
-
     inside, outside = begin(mark_i3_parameters(), SEED), begin(mark_i3_parameters(), SEED)
     run(inside, 400)
     step(outside, 400)

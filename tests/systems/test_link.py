@@ -76,7 +76,7 @@ def heads_for(motion, direction) -> bool:
     ahead = math.cos(direction)
     error = direction if ahead >= 0 else wrapped(direction + math.pi)
     rate = max(-TABLE.turn_rate, min(TABLE.turn_rate, TABLE.steering_gain * error))
-    return turn == pytest.approx(rate, abs=1e-6) and (forward >= 0) == (ahead >= 0) or abs(ahead) < 1e-3
+    return (turn == pytest.approx(rate, abs=1e-6) and (forward >= 0) == (ahead >= 0)) or abs(ahead) < 1e-3
 
 
 def test_both_components_are_the_printed_ones_for_a_thousand_pairs():
