@@ -1,0 +1,19 @@
+import pytest
+
+from contracts.states import Handles, handles
+from formicarium.systems import registry
+
+
+@pytest.fixture(params=registry.names())
+def name(request) -> str:
+    return request.param
+
+
+@pytest.fixture
+def system(name) -> registry.System:
+    return registry.resolve(name)
+
+
+@pytest.fixture
+def ways(name) -> Handles:
+    return handles(name)

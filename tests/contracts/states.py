@@ -1,0 +1,116 @@
+"""States of any registered system: begun, recorded on the way, copied, compared leaf by leaf, turned and shifted."""
+
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from formicarium.physics.world import ADJUSTABLE, make_world
+from formicarium.systems.registry import resolve
+
+
+class Handles(NamedTuple):
+    """What a contract needs of a system beside ``run``."""
+
+    begin: Callable[..., Any]  # (parameters, seed, *, storage) -> state before the first cycle
+    advance: Callable[[Any, int], None]  # the compiled loop
+    roles: Callable[[Any], np.ndarray]  # numbers as in Scene.roles
+
+
+def handles(name: str) -> Handles:
+    """Return the handles of a system; the only place of the contracts that knows one by name."""
+    system = resolve(name)
+    if hasattr(system, "begin"):
+        return Handles(system.begin, system.advance, system.roles)
+    from formicarium.systems.sequencing.loop import run
+    from formicarium.systems.sequencing.setup import begin
+    from formicarium.systems.sequencing.study import frame_roles
+
+    return Handles(begin, run, frame_roles)
+
+
+def copy_of(state: Any) -> Any:
+    """Return an independent copy of a state: a snapshot."""
+    return type(state)(*[copy_of(part) if isinstance(part, tuple) else part.copy() for part in state])
+
+
+def recorded(name: str, every: int, parameters: Any = None, first_seed: int = 1) -> Iterator[Any]:
+    """Yield copies of the states of trials ``first_seed``, ``first_seed`` + 1, ..., one every so many cycles."""
+    system, ways = resolve(name), handles(name)
+    for seed in itertools.count(first_seed):
+        state = ways.begin(parameters or system.configure(), seed)
+        clock = state.clock[0]
+        while not clock.finished and clock.cycle < clock.last_cycle:
+            yield copy_of(state)
+            ways.advance(state, every)
+            clock.event_count = 0
+
+
+def leaves(value: Any, path: str = "") -> Iterator[tuple[str, np.ndarray]]:
+    """Yield every plain array inside a state, with its path (padding between fields is nobody's)."""
+    if isinstance(value, tuple):
+        for name, part in zip(value._fields, value, strict=True):
+            yield from leaves(part, f"{path}.{name}")
+    elif value.dtype.names:
+        for name in value.dtype.names:
+            yield from leaves(np.asarray(value[name]), f"{path}.{name}")
+    else:
+        yield path, np.asarray(value)
+
+
+def differences(one: Any, other: Any) -> list[str]:
+    """Return the paths of all arrays that are not the same to the last bit."""
+    pairs = zip(leaves(one), leaves(other), strict=True)
+    return [path for (path, a), (_, b) in pairs if a.tobytes() != b.tobytes()]
+
+
+def distances(one: Any, other: Any) -> dict[str, float]:
+    """Return the greatest difference in every array; angles that differ by whole turns are the same."""
+    result = {}
+    for (path, a), (_, b) in zip(leaves(one), leaves(other), strict=True):
+        gap = np.abs(a.astype(float) - b.astype(float))
+        if path.endswith("bearing"):
+            gap = np.abs((gap + math.pi) % (2.0 * math.pi) - math.pi)
+        result[path] = float(gap.max(initial=0.0))
+    return result
+
+
+# Pairs of fields that are places (turned and shifted) or directions (turned only).
+PLACES = (("x", "y"), ("ax", "ay"), ("bx", "by"))
+DIRECTIONS = (("speed_x", "speed_y"), ("cosine", "sine"))
+
+
+def turned_records(array: np.ndarray, turn: float, shift: tuple[float, float]) -> np.ndarray:
+    """Return a copy of records whose world coordinates are turned about the origin, then shifted."""
+    result = array.copy()
+    names = result.dtype.names or ()
+    cosine, sine = math.cos(turn), math.sin(turn)
+    for pairs, (dx, dy) in ((PLACES, shift), (DIRECTIONS, (0.0, 0.0))):
+        for x, y in pairs:
+            if x in names and y in names:
+                result[x] = cosine * array[x] - sine * array[y] + dx
+                result[y] = sine * array[x] + cosine * array[y] + dy
+    if "heading" in names:
+        result["heading"] = array["heading"] + turn
+    return result
+
+
+def turned_world(world: Any, turn: float, shift: tuple[float, float]) -> Any:
+    """Return the world with bodies and scenery turned and shifted, its grids made anew."""
+    settings = {name: world.settings[name][0] for name in ADJUSTABLE}
+    bodies, segments = (turned_records(part, turn, shift) for part in (world.bodies, world.segments))
+    return make_world(bodies, segments, **settings)
+
+
+def turned(state: Any, turn: float, shift: tuple[float, float]) -> Any:
+    """Return a copy of a state in a turned and shifted world; what is inside a robot stays as it is."""
+    state = copy_of(state)
+    parts = {}
+    for name, part in state._asdict().items():
+        if name == "world":
+            parts[name] = turned_world(part, turn, shift)
+        elif isinstance(part, np.ndarray):
+            parts[name] = turned_records(part, turn, shift)
+    return state._replace(**parts)
