@@ -9,6 +9,7 @@ import numpy as np
 
 from formicarium.physics.world import ADJUSTABLE, make_world
 from formicarium.systems.registry import resolve
+from formicarium.systems.sequencing import loop, setup, study
 
 
 class Handles(NamedTuple):
@@ -24,11 +25,7 @@ def handles(name: str) -> Handles:
     system = resolve(name)
     if hasattr(system, "begin"):
         return Handles(system.begin, system.advance, system.roles)
-    from formicarium.systems.sequencing.loop import run
-    from formicarium.systems.sequencing.setup import begin
-    from formicarium.systems.sequencing.study import frame_roles
-
-    return Handles(begin, run, frame_roles)
+    return Handles(setup.begin, loop.run, study.frame_roles)
 
 
 def copy_of(state: Any) -> Any:

@@ -18,7 +18,7 @@ def test_every_field_of_a_reading_varies(name):
     readings = seen(name, cycles=4000, every=3)
     dead = []
     for path, values in leaves(readings):
-        times, robots, *rest = values.shape
+        rest = values.shape[2:]
         # proximity[8] and payload[4] are sensors one by one; lists of blobs and packets are only lists
         sensors = rest[-1] if len(rest) == path.count(".") else 1
         table = values.reshape(-1, sensors)
