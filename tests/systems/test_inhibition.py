@@ -7,7 +7,7 @@ import pytest
 from formicarium.robots.records import Colour
 from formicarium.systems.sequencing.memory import State
 from systems.one_robot import OneRobot
-from systems.stage import written
+from systems.stage import add_packet, guardian, put_before_booth, step, wide_stage, written
 
 INHIBITION = written(identity=99, inhibit=1)
 ECHO = written(identity=99, inhibit=1, guardian=1, colour=1, count=7)
@@ -118,3 +118,24 @@ def test_a_runner_inhibits_from_setting_out_until_it_is_past_the_guardian():
     for state in (State.WALK, State.FOLLOW, State.JOIN):
         message = OneRobot().turn_to(state).live().message()
         assert message is None or message.inhibit == 0
+
+
+@pytest.mark.xfail(strict=True, reason="keep_clear() moves straight away from the guardian, that is into the booth")
+def test_an_inhibited_robot_between_guardian_and_booth_does_not_back_into_the_bay():
+    """TS-106: it is to clear the space before the task, not to fill the booth."""
+    entered = 0
+    for seed in range(8):
+        state = wide_stage(3, seed, setting=0, behaviour={"inhibition_leave": 0.0})
+        booth = seed % 3
+        put_before_booth(state, 0, booth, 0.19)
+        state.world.bodies[0].heading += math.pi
+        guardian(state, 0, int(state.booths[booth].colour), True, 3, in_chain=1)
+        put_before_booth(state, 1, booth, 0.07, 0.03 * (seed % 3 - 1))  # between the two
+        state.memories[1].state = State.FOLLOW
+
+        def inhibit(state):
+            add_packet(state.readings[1], INHIBITION, 0.25, 0.0)
+
+        step(state, 200, inhibit)
+        entered += int(state.booths[booth].occupied)
+    assert entered == 0
