@@ -11,14 +11,17 @@ import numpy as np
 import pytest
 
 from contracts.states import copy_of, differences, handles, recorded
+from formicarium.compiled import source_hash
 from formicarium.systems.registry import resolve
 
 PROGRAM = """
 import pickle, sys
 sys.path.insert(0, sys.argv[1])
 from contracts.states import handles
-from formicarium.compiled import INTERPRETED
+from formicarium.compiled import INTERPRETED, source_hash
 assert INTERPRETED
+if source_hash() != sys.argv[4]:
+    sys.exit("the sources were edited while the test ran")
 state = pickle.load(sys.stdin.buffer)
 handles(sys.argv[2]).advance(state, int(sys.argv[3]))
 pickle.dump(state, sys.stdout.buffer)
@@ -28,9 +31,11 @@ pickle.dump(state, sys.stdout.buffer)
 def interpreted(name, state, cycles):
     """Return the state after so many cycles of the uncompiled loop, run in a process of its own."""
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, str(Path(__file__).parents[1]), name, str(cycles)],
+        [sys.executable, "-c", PROGRAM, str(Path(__file__).parents[1]), name, str(cycles), source_hash()],
         env=os.environ | {"FORMICARIUM_INTERPRETED": "1"}, input=pickle.dumps(state), capture_output=True, check=False,
     )  # fmt: skip
+    if b"the sources were edited" in done.stderr:
+        pytest.skip("the sources were edited while the test ran")
     assert done.returncode == 0, done.stderr.decode()
     return pickle.loads(done.stdout)
 

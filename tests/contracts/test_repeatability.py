@@ -80,6 +80,8 @@ def everything(system, workers):
     parameters = small(system)
     function = function_of(system.name, parameters, {3: 50.0}, configuration_of(system, parameters).sources)
     runs = {run.seed: run for run in finished_runs(function, [1, 2, 3, 4], workers)}
+    if any("ChangedSources" in run.failure for run in runs.values()):
+        pytest.skip("the sources were edited while the test ran")
     assert [runs[seed].failure for seed in (1, 2, 3, 4)] == [""] * 4
     return {seed: run.result for seed, run in runs.items()}, {run.worker for run in runs.values()}
 

@@ -1,0 +1,81 @@
+"""Robots can die (TS-149, U31): at the rate asked for, and what is left is a dark, silent, solid body."""
+
+import math
+
+import numpy as np
+import pytest
+
+from formicarium.robots.records import SILENCE, Colour
+from formicarium.systems.sequencing.loop import run
+from formicarium.systems.sequencing.measures import EventKind
+from formicarium.systems.sequencing.parameters import mark_i3_parameters
+from formicarium.systems.sequencing.setup import begin
+from formicarium.trial.phases import move
+from formicarium.trial.simulate import drain, simulate
+from trial.test_setup import crew
+
+RATE = 1.0 / 43_600.0  # of the paper's robot runs
+
+
+def test_robots_die_at_the_rate_asked_for():
+    lives = np.concatenate([crew(250, seed, rate=RATE).robots.dies_at for seed in range(20)]) * 0.1
+    assert lives.mean() == pytest.approx(1.0 / RATE, rel=4 / math.sqrt(5000))
+    assert np.mean(lives < 0.5 / RATE) == pytest.approx(1.0 - math.exp(-0.5), abs=0.03)
+    assert (crew(20).robots.dies_at == -1).all()
+
+
+def test_every_death_is_logged_once_when_it_happens():
+    state = begin(mark_i3_parameters(swarm={"failure_rate": 1.0 / 300.0, "time_cap": 400.0}), 4)
+    due = {int(robot.identity): int(robot.dies_at) for robot in state.robots if robot.dies_at < 4000}
+    events = simulate(run, state)
+    deaths = events[events["kind"] == EventKind.DIED]
+    assert {int(event["robot"]): int(event["cycle"]) for event in deaths} == due
+    assert len(deaths) == len(due) > 5
+    assert (state.robots.alive == 0).sum() == len(due)
+
+
+def killed(cycle=300, seed=4):
+    """Return a state some seconds after the death of robot 0, and where it was when it died."""
+    state = begin(mark_i3_parameters(), seed)
+    state.robots[0].dies_at = cycle
+    run(state, cycle)
+    assert state.robots[0].alive == 1
+    run(state, 5)
+    return state
+
+
+def test_the_dead_are_silent_dark_and_still():
+    state = killed()
+    reading, memory = state.readings[0].tobytes(), state.memories[0].tobytes()
+    steps = (state.robots[0].left_path, state.robots[0].right_path)
+    run(state, 200)
+    command = state.commands[0]
+    assert (command.colour, command.infrared, command.left, command.right) == (Colour.OFF, SILENCE, 0.0, 0.0)
+    assert not command.enabled.any() and state.robots[0].speaking == 0
+    assert (state.world.bodies[0].forward, state.world.bodies[0].turning) == (0.0, 0.0)
+    assert (state.robots[0].left_path, state.robots[0].right_path) == steps
+    assert (state.readings[0].tobytes(), state.memories[0].tobytes()) == (reading, memory)
+
+
+def test_the_dead_are_still_bodies():
+    state = killed()
+    bodies = state.world.bodies
+    bodies.x, bodies.y = 5.0 + 0.5 * np.arange(len(bodies)), 0.0
+    bodies.forward = bodies.turning = bodies.speed_x = bodies.speed_y = bodies.turn_rate = 0.0
+    bodies[0].x, bodies[0].y, bodies[1].x, bodies[1].y, bodies[1].heading = 0.0, 0.0, -0.1, 0.0, 0.0
+    bodies[1].forward = 0.1
+    for _ in range(10):
+        move(state)
+    assert 0.01 < bodies[0].x < 0.06  # pushed, at about half the pusher's speed
+    assert bodies[0].x - bodies[1].x == pytest.approx(0.07, abs=0.001)
+    run(state, 1)  # and whoever stands before it feels it
+    assert state.readings[1].proximity.max() > 0.8
+
+
+def test_a_dead_robot_is_neither_seen_nor_heard():
+    state = begin(mark_i3_parameters(), 4)
+    state.commands[3].colour, state.commands[3].enabled[:] = Colour.CYAN, 1
+    state.robots[3].dies_at = 0
+    run(state, 1)
+    drain(state)
+    assert state.commands[3].colour == Colour.OFF and state.robots[3].speaking == 0
