@@ -6,10 +6,10 @@ from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to
 from formicarium.robots.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
-from formicarium.robots.records import SILENCE
+from formicarium.robots.records import SILENCE, Colour
 from formicarium.systems.sequencing.guardian import become_guardian
 from formicarium.systems.sequencing.memory import State, enter
-from formicarium.systems.sequencing.perception import locate_lights
+from formicarium.systems.sequencing.perception import locate_lights, nearest_blob
 
 INSIDE = 0.085  # m, nearer than this to where the lights were, the robot is in the bay
 IN_FRONT = 0.125  # m, farther than this from the lights, it is out of the bay
@@ -35,6 +35,13 @@ def unattended(memory, colour, cycle, table):
 
 
 @compiled
+def is_attended(reading, memory, table):
+    """Tell whether the task approached or just done has a guardian: one is heard, or its light is in view."""
+    seen = nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.attended_within) >= 0
+    return seen or not unattended(memory, memory.colour, reading.cycle, table)
+
+
+@compiled
 def next_byte(memory, identity):
     """Return the byte that answers the last one heard from the booth."""
     if memory.exchange == SILENCE:
@@ -54,17 +61,21 @@ def approach(reading, memory, command, table, epuck):
         memory.exchange = reading.infrared
         enter(memory, State.EXCHANGE, cycle)
         return
-    if memory.candidate == 1 and lit and not unattended(memory, memory.colour, cycle, table):
-        enter(memory, State.WALK, cycle)  # somebody was faster (U28)
-        return
     distance = distance_to(memory.target)
     inside = memory.target.known == 1 and distance < INSIDE
     dark = cycle - memory.target.seen
+    if memory.candidate == 1 and lit and not inside and is_attended(reading, memory, table):
+        enter(memory, State.WALK, cycle)  # somebody was faster (U28)
+        return
     if inside and dark > table.settle_time:
         enter(memory, State.EXCHANGE, cycle)  # the lights went out because this robot is in; no answer yet
         return
     if (not inside and dark > table.lights_lost_after) or cycle - memory.since > table.approach_patience:
-        enter(memory, State.FOLLOW, cycle)
+        memory.abstain_until = cycle + table.refuse_time
+        if memory.target.known == 1 and distance < table.straight_within:
+            turn_round(memory, cycle)  # half way in already
+        else:
+            enter(memory, State.FOLLOW, cycle)
         return
     if memory.target.known == 0:
         stop(command)
@@ -142,18 +153,22 @@ def leave(reading, memory, command, table, epuck):
 
 @compiled
 def stand_off(reading, memory, command, table, epuck):
-    """Drive straight out to the guardian's place, measured by the booth's lights (TS-45, U27)."""
+    """Drive straight out to the guardian's place, measured by the booth's lights (TS-45, U27).
+
+    When they go dark on the way, the place where they were last seen counts, carried along by the wheel steps;
+    if they never came on, the steps alone.
+    """
     cycle = reading.cycle
-    if not unattended(memory, memory.colour, cycle, table):
+    if is_attended(reading, memory, table):
         memory.count = memory.reported % table.tasks if memory.verdict == 1 else 0
         memory.candidate = 0  # somebody guards it already (U29)
         enter(memory, State.LEAVE, cycle)
         return
     drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
-    lit = locate_lights(reading, memory.target, memory.colour)
-    there = lit and distance_to(memory.target) >= table.exit_distance + table.lights_depth
-    overshot = memory.travelled > 2.0 * table.exit_distance and cycle - memory.target.seen > table.lights_lost_after
-    if there or overshot or cycle - memory.since > table.exit_patience:
+    locate_lights(reading, memory.target, memory.colour)
+    sighted = memory.target.seen > memory.since
+    out = distance_to(memory.target) - table.lights_depth if sighted else memory.travelled
+    if out >= table.exit_distance or cycle - memory.since > table.exit_patience:
         become_guardian(memory, cycle, memory.verdict == 1, memory.count + 1)
 
 

@@ -250,7 +250,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
             chosen = chosen & (events[name] == value)
         return int(chosen.sum())
 
-    roles = state.memories.role
+    roles = state.memories.role[state.robots.alive == 1]  # a dead member is none
     goal = int(state.swarm[0].sequences)
     success = bool(chain.sequences >= goal)
     row: dict[str, int | float | str | None] = {

@@ -76,6 +76,8 @@ MEMORY = np.dtype(
         ("adverts", ADVERT, COLOURS),  # by task colour
         ("inhibitor", "i8"),  # identity of the robot whose inhibition was heard last
         ("inhibition_heard", "i8"),  # cycle
+        ("inhibition_ahead", "i8"),  # cycle of the last one whose sender was ahead
+        ("echo_heard", "i8"),  # cycle of the last one that a guardian repeated
         # runner
         ("count", "i8"),  # CNT
         ("turn_left", "f8"),  # rad still to turn
@@ -95,6 +97,7 @@ MEMORY = np.dtype(
         ("last_success", "i8"),  # colour of the task just done with success
         ("inhibiting_until", "i8"),  # cycle; sends inhibitions until then
         ("refuse_until", "i8"),  # cycle; ignores invitations until then
+        ("abstain_until", "i8"),  # cycle; begins no visit until then
         ("wander_until", "i8"),  # cycle; ignores chain and inhibition until then
         # chain member
         ("branch", "i8"),  # BRN

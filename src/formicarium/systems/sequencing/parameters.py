@@ -128,7 +128,7 @@ class BehaviourTable(Table):
     # joining the chain
     join_distance: float = number(0.25, "m", "a runner answers an invitation within this TS-82", gt=0)
     request_patience: int = number(30, "cycles", "TS-82", ge=1)
-    refuse_time: int = number(100, "cycles", "then it ignores invitations for so long TS-82", ge=0)
+    refuse_time: int = number(100, "cycles", "then it ignores invitations, or booths, for so long TS-82", ge=0)
     offer_patience: int = number(30, "cycles", "TS-82", ge=1)
     sector_half_width: float = number(degrees(30), "rad", "of the invited sector U10", gt=0)
     sector_tolerance: float = number(

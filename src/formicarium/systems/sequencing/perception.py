@@ -29,14 +29,20 @@ def perceive(reading, memory, table, epuck):
         decode(packet.payload, message)
         if message.guardian == 1 and 0 < message.colour < COLOURS:
             keep_advert(memory.adverts[message.colour], message, packet.bearing, reading.cycle, table)
-        if (
-            message.inhibit == 1
-            and message.identity != reading.identity
-            and packet.distance < table.inhibition_distance
-            and abs(packet.bearing) < table.inhibition_ahead
-        ):
-            memory.inhibitor = message.identity
-            memory.inhibition_heard = reading.cycle
+        near = packet.distance < table.inhibition_distance
+        if message.inhibit == 1 and message.identity != reading.identity and near:
+            hear_inhibition(memory, message, packet.bearing, reading.cycle, table)
+
+
+@compiled
+def hear_inhibition(memory, message, bearing, cycle, table):
+    """Remember an inhibition: whose, when, whether from ahead, and whether a guardian repeats it."""
+    memory.inhibitor = message.identity
+    memory.inhibition_heard = cycle
+    if abs(bearing) < table.inhibition_ahead:
+        memory.inhibition_ahead = cycle
+    if message.guardian == 1:
+        memory.echo_heard = cycle
 
 
 @compiled

@@ -21,7 +21,7 @@ from formicarium.systems.sequencing.booth_visit import (
 from formicarium.systems.sequencing.following import follow_chain, reference_point
 from formicarium.systems.sequencing.guardian import qualifies
 from formicarium.systems.sequencing.member import begin_message, send
-from formicarium.systems.sequencing.memory import State, enter
+from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.perception import guarded_colour, nearest_blob
 from formicarium.systems.sequencing.tail import become_tail
 
@@ -43,11 +43,14 @@ def begin_turn(memory, table, cycle):
 
 @compiled
 def obstructed(reading, threshold):
-    """Tell whether something is near the front half."""
-    for k in range(PROXIMITY_SENSORS):
-        if (k < 3 or k > 4) and reading.proximity[k] > threshold:
-            return True
-    return False
+    """Tell whether something is in the way: ahead, or on one side of the front half.
+
+    Something on both sides is a passage, such as a booth's bay, which is left where the front is free.
+    """
+    ahead = max(reading.proximity[0], reading.proximity[7])
+    right = max(reading.proximity[1], reading.proximity[2])
+    left = max(reading.proximity[5], reading.proximity[6])
+    return ahead > threshold or max(left, right) > threshold >= min(left, right)
 
 
 @compiled
@@ -175,9 +178,9 @@ def join(reading, memory, command, table):
 
 
 @compiled
-def hears_inhibition(reading, memory):
-    """Tell whether an inhibition came this very cycle."""
-    return memory.inhibition_heard == reading.cycle
+def may_visit(memory, cycle, table):
+    """Tell whether nobody else nearby has set out for a task, and the last attempt is long enough ago."""
+    return cycle >= memory.abstain_until and cycle - memory.inhibition_heard > table.inhibition_echo
 
 
 @compiled
@@ -202,19 +205,33 @@ def respond_to_inhibition(reading, memory, table):
 
 
 @compiled
+def stands_before_task(reading, guardian):
+    """Tell whether a booth's light is nearer than the guardian: the robot is between the two."""
+    for n in range(guardian):  # nearest first
+        if Colour.OFF < reading.blobs[n].colour < Colour.CYAN:
+            return True
+    return False
+
+
+@compiled
 def keep_clear(reading, memory, command, table, epuck):
-    """Stand; nearer than the clearance to a guardian, move straight away from it."""
+    """Clear the way in front of the task, then stand until no inhibition has been heard for a while.
+
+    Who is between booth and guardian goes on round the guardian; who is near on another side backs off from it.
+    """
     cycle = reading.cycle
     if cycle - memory.inhibition_heard > table.inhibition_memory:
         memory.chain_seen = cycle
         enter(memory, State.FOLLOW, cycle)
         return
-    n = nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.inhibition_clearance)
-    if n < 0:
+    guardian = nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.inhibition_clearance)
+    if guardian < 0:
         stop(command)
-        return
-    away = wrapped(reading.blobs[n].bearing + math.pi)
-    steer(command, away, table.follow_speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
+    elif stands_before_task(reading, guardian):
+        follow(reading, memory, command, table, epuck)
+    else:
+        away = wrapped(reading.blobs[guardian].bearing + math.pi)
+        steer(command, away, table.follow_speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
 
 
 @compiled
@@ -222,13 +239,15 @@ def roam(reading, memory, command, table, epuck):
     """Walk or follow, unless there is something better to do."""
     cycle = reading.cycle
     wandering = cycle < memory.wander_until
-    if meets_unattended_task(reading, memory, table) or is_directed_to_task(reading, memory, table):
+    if may_visit(memory, cycle, table) and (
+        meets_unattended_task(reading, memory, table) or is_directed_to_task(reading, memory, table)
+    ):
         return
     if is_invited(reading, memory, table):
         enter(memory, State.JOIN, cycle)
         return
     busy = wandering or memory.notifying == 1 or cycle < memory.inhibiting_until
-    if hears_inhibition(reading, memory) and not busy and sees_task(reading):
+    if memory.inhibition_ahead == cycle and not busy and sees_task(reading):
         respond_to_inhibition(reading, memory, table)
     elif memory.state != State.FOLLOW and not wandering and meets_chain(reading, memory, table):
         enter(memory, State.FOLLOW, cycle)
@@ -242,9 +261,15 @@ def roam(reading, memory, command, table, epuck):
 
 @compiled
 def yields(reading, memory, table):
-    """Tell whether an approaching robot gives way to another that has set out for a task: the larger identity goes."""
+    """Tell whether an approaching robot gives way to another that has set out for the task.
+
+    The guardian repeats the inhibition of whoever came first; without one the larger identity goes first. Who is
+    in the mouth already goes on.
+    """
     near = memory.target.known == 1 and distance_to(memory.target) < table.straight_within
-    return hears_inhibition(reading, memory) and memory.inhibitor > reading.identity and not near
+    if near or memory.inhibition_heard != reading.cycle:
+        return False
+    return memory.echo_heard == reading.cycle or memory.inhibitor > reading.identity
 
 
 @compiled
@@ -306,4 +331,5 @@ def run(reading, memory, command, table, epuck):
         join(reading, memory, command, table)
     elif state == State.INHIBITED:
         keep_clear(reading, memory, command, table, epuck)
-    speak(reading, memory, command)
+    if memory.role == Role.RUNNER:
+        speak(reading, memory, command)

@@ -109,7 +109,7 @@ def make_memories(robots: np.recarray, seed: int) -> np.recarray:
         memory.draws = stream(seed, "decisions", int(robot.key))
         memory.state = State.WALK
         memory.exchange = SILENCE
-        for name in ("inhibition_heard", "chain_seen", "verdict_heard", "echo_until", "requested"):
+        for name in ("inhibition_heard", "inhibition_ahead", "echo_heard", "chain_seen", "verdict_heard", "echo_until", "requested"):
             memory[name] = NEVER
         for colour in range(COLOURS):
             memory.adverts[colour].heard = NEVER
