@@ -6,8 +6,8 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 
-def number(default: float | int | bool, unit: str, description: str, **bounds: Any) -> Any:
-    """Declare one number of a table with its unit, its reason or source, and its bounds (ge, gt, le, lt)."""
+def number(default: Any, unit: str, description: str, **bounds: Any) -> Any:
+    """Declare one number (or a list of numbers, which stays in Python) of a table with its unit, its reason or source, and its bounds (ge, gt, le, lt)."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 

@@ -169,6 +169,17 @@ def test_an_honest_robot_is_counted_by_the_referee_whatever_it_believes():
     assert not np.isin(events["kind"], (EventKind.PROTOCOL_FAULT, EventKind.DISAGREEMENT)).any()
 
 
+def test_the_first_execution_of_a_future_guardian_never_completes_a_sequence():
+    """TS-137."""
+    state = wide_stage(1, setting=0, **SURE)
+    for place in range(3):
+        send_in(state, 0, booth_of(state, place), place, candidate=int(place == 2))
+        step(state, 120)
+    events = drain(state)
+    assert of(events, EventKind.EXECUTED)[["value", "detail"]].tolist() == [(1, 1), (1, 2), (1, 3)]
+    assert len(of(events, EventKind.SEQUENCE)) == 0 and state.chain[0].sequences == 0
+
+
 def test_a_mute_booths_visitor_leaves_waits_and_tries_again():
     """TS-25, U30: then it goes on unchanged."""
     state = wide_stage(1, setting=0, booth={"exchange_failure": 1.0})

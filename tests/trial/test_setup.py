@@ -77,7 +77,7 @@ def test_inside_a_polygon_is_as_far_from_its_sides_as_asked():
 def crew(count, seed=1, storage=None, rate=0.0):
     places = np.zeros((count, 3))
     places[:, 0] = np.arange(count)
-    return make_crew(places, Epuck(), seed, rate, 0.1, storage)
+    return make_crew(places, Epuck(), seed, rate, 0.1, storage=storage)
 
 
 @pytest.mark.parametrize("count", [1, 20, 255])

@@ -6,8 +6,9 @@ A reader's own package registers in the entry-point group ``formicarium.systems`
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import numpy as np
 from pydantic import BaseModel
 
 from formicarium.trial.record import Timeline, Trial
@@ -38,6 +39,11 @@ class System(NamedTuple):
     kinds: tuple[str, ...]  # names of the event kinds, in the order of their numbers
     targets: Targets
     timeline: Callable[[Trial], Timeline]  # what the timeline figure shows
+    # The same trial cycle by cycle, for tests, debuggers and viewers. A state is a NamedTuple of record arrays with
+    # the names that trial/phases.py uses (clock, world, robots, readings, commands, memories, lights, events).
+    begin: Callable[..., Any] | None = None  # (parameters, seed, *, storage) -> state before the first cycle
+    advance: Callable[[Any, int], None] | None = None  # (state, cycles): the compiled loop
+    roles: Callable[[Any], np.ndarray] | None = None  # state -> (N,) role numbers as in Scene.roles
 
 
 class UnknownSystem(LookupError):

@@ -72,6 +72,7 @@ def make_crew(
     seed: int,
     failure_rate: float,
     cycle_time: float,
+    deaths: tuple[tuple[int, float], ...] = (),
     storage: np.ndarray | None = None,
 ) -> Crew:
     """Return the robots at their places, with identities, noise streams and times of death.
@@ -82,6 +83,7 @@ def make_crew(
         seed: of the trial.
         failure_rate: deaths per robot and second, 0 for none.
         cycle_time: seconds.
+        deaths: (number of the robot, 1..N; seconds) of robots that die at a set time.
         storage: where robot k is kept, a permutation of 0..N-1. Nothing but the order in memory depends on it.
     """
     count = len(places)
@@ -103,4 +105,6 @@ def make_crew(
         robot.dies_at = int(lives[key] / failure_rate / cycle_time) if failure_rate > 0 else -1
         robot.noise = stream(seed, "noise", key)
         robot.infrared_heard = SILENCE
+    for number, seconds in deaths:
+        robots[where[number - 1]].dies_at = round(seconds / cycle_time)
     return Crew(bodies, robots)

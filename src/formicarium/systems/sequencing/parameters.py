@@ -54,8 +54,19 @@ class SwarmTable(Table):
     failure_rate: float = number(
         0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0
     )
+    deaths: tuple[tuple[int, float], ...] = number(
+        (), "s", "robots that die, as [[number 1 to N, seconds], ...] [TS-149, U31]"
+    )
     log_messages: bool = number(False, "1", "log every packet sent (large)")
     log_states: bool = number(False, "1", "log every change of a robot's state (large)")
+
+    @model_validator(mode="after")
+    def deaths_are_of_robots(self) -> "SwarmTable":
+        """Let only robots die that there are, at times that exist."""
+        for robot, seconds in self.deaths:
+            if not 1 <= robot <= self.robots or seconds < 0:
+                raise ValueError(f"deaths: [{robot}, {seconds}] is not [robot 1 to {self.robots}, seconds from 0]")
+        return self
 
 
 class BehaviourTable(Table):
@@ -78,7 +89,9 @@ class BehaviourTable(Table):
     unattended_after: int = number(
         20, "cycles", "a task whose guardian was not heard for so long is unattended TS-92", ge=1
     )
-    attended_within: float = number(0.35, "m", "nor is a task unattended while a guardian's light is this near [choice]", ge=0)
+    attended_within: float = number(
+        0.35, "m", "nor is a task unattended while a guardian's light is this near [choice]", ge=0
+    )
     unattended_watch: int = number(5, "cycles", "and its booth must have been in sight for so long [choice]", ge=0)
     follow_speed: float = number(0.05, "m/s", "U3 [tuned on chain time]", gt=0)
     follow_distance: float = number(0.11, "m", "d-bar, kept to the reference point TS-98", gt=0)

@@ -6,7 +6,7 @@ from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import distance_to
-from formicarium.robots.records import PROXIMITY_SENSORS, Colour
+from formicarium.robots.records import Colour
 from formicarium.streams import advanced, uniform
 from formicarium.systems.sequencing.booth_visit import (
     approach,

@@ -64,7 +64,7 @@ def begin(
     mouths = np.array([placed(x, y, way, -HALF, 0.0) for x, y, way in arena.booths])
     count = p.swarm.robots
     places = random_places(count, arena.corners, mouths, BOOTH_CLEARANCE, seed)
-    crew = make_crew(places, p.epuck, seed, p.swarm.failure_rate, p.physics.cycle_time, storage)
+    crew = make_crew(places, p.epuck, seed, p.swarm.failure_rate, p.physics.cycle_time, p.swarm.deaths, storage)
     world = make_world(
         crew.bodies,
         arena.segments,
@@ -109,7 +109,15 @@ def make_memories(robots: np.recarray, seed: int) -> np.recarray:
         memory.draws = stream(seed, "decisions", int(robot.key))
         memory.state = State.WALK
         memory.exchange = SILENCE
-        for name in ("inhibition_heard", "inhibition_ahead", "echo_heard", "chain_seen", "verdict_heard", "echo_until", "requested"):
+        for name in (
+            "inhibition_heard",
+            "inhibition_ahead",
+            "echo_heard",
+            "chain_seen",
+            "verdict_heard",
+            "echo_until",
+            "requested",
+        ):
             memory[name] = NEVER
         for colour in range(COLOURS):
             memory.adverts[colour].heard = NEVER

@@ -116,4 +116,7 @@ MARK_I3 = System(
         published_cap=2400.0,
     ),
     timeline=timeline,
+    begin=begin,
+    advance=run,
+    roles=frame_roles,
 )
