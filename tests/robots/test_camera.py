@@ -99,3 +99,17 @@ def test_distance_is_off_by_thirteen_millimetres_and_bearing_by_two_degrees(dist
     off = blobs.bearing % (2 * math.pi) - math.pi
     assert off.mean() == pytest.approx(0.0, abs=4 * math.radians(2) / math.sqrt(4000))
     assert off.std() == pytest.approx(math.radians(2), rel=0.05)
+
+
+def test_two_lights_are_missed_and_misjudged_apart():
+    stage = Stage([(0, 0), (0.2, 0.0)], lights=[(-0.2, 0.0, Colour.RED)])
+    stage.commands[1].colour = Colour.CYAN
+    rows = []
+    for cycle in range(4000):
+        blobs = {int(blob.colour): blob for blob in stage.look(cycle=cycle)}
+        rows.append([blobs[colour].distance if colour in blobs else np.nan for colour in (Colour.CYAN, Colour.RED)])
+    rows = np.array(rows)
+    missed = np.isnan(rows)
+    assert 0 < missed.all(axis=1).sum() < 30  # one in four hundred, not one in twenty
+    both = rows[~missed.any(axis=1)]
+    assert abs(np.corrcoef(both.T)[0, 1]) < 4 / math.sqrt(len(both))
