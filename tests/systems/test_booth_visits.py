@@ -328,7 +328,6 @@ def test_a_runner_does_not_repeat_the_task_it_has_just_done_until_the_guardian_k
     assert m.state != State.APPROACH
 
 
-@pytest.mark.xfail(strict=True, reason="a bay's walls are obstacles on all sides: walk() turns there for ever")
 @pytest.mark.parametrize("heading", range(0, 360, 45))
 def test_a_walking_robot_finds_its_way_out_of_a_bay(heading):
     """However it got there: it must not block the booth to the end of the trial."""
@@ -348,7 +347,6 @@ def test_a_guardian_that_is_seen_but_not_heard_keeps_its_task():
         assert robot.memory.state != State.APPROACH
 
 
-@pytest.mark.xfail(strict=True, reason="stand_off() believes the radio alone, which the bay and the crowd shadow")
 def test_a_candidate_on_its_way_out_that_sees_a_guardian_stays_runner():
     """U29: also if it cannot hear it."""
     robot = leaving_candidate(0, SUCCESS)

@@ -120,7 +120,6 @@ def test_a_runner_inhibits_from_setting_out_until_it_is_past_the_guardian():
         assert message is None or message.inhibit == 0
 
 
-@pytest.mark.xfail(strict=True, reason="keep_clear() moves straight away from the guardian, that is into the booth")
 def test_an_inhibited_robot_between_guardian_and_booth_does_not_back_into_the_bay():
     """TS-106: it is to clear the space before the task, not to fill the booth."""
     entered = 0

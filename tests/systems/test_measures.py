@@ -109,7 +109,6 @@ def test_what_happened_is_counted():
     assert [row[name] for name in (*names, "died", "branches")] == [3, 1, 1, 1, 1, 1, 1, 1, 1]
 
 
-@pytest.mark.xfail(strict=True, reason="outcome() counts the dead among the members and again among the dead")
 def test_the_dead_are_no_members():
     """A dead guardian and the one that took its place (U31) are not two guardians for one task."""
     state = finished(GUARDIAN=4, LINK=10)
@@ -119,7 +118,6 @@ def test_the_dead_are_no_members():
     assert row["cause"] != "two guardians for one task"
 
 
-@pytest.mark.xfail(strict=True, reason="outcome() counts the dead among the members and again among the dead")
 def test_dead_links_do_not_use_up_the_free_runners():
     state = finished(GUARDIAN=3, LINK=12)
     state.robots.alive[3:8] = 0  # five of the links; five runners are left

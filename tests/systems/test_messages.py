@@ -148,7 +148,6 @@ def test_the_chosen_runner_becomes_tail_one_number_further_and_acknowledges():
     assert robot.command.colour == Colour.MAGENTA
 
 
-@pytest.mark.xfail(strict=True, reason="run() lets a robot that has just become tail speak once more as a runner")
 def test_the_new_tail_says_nothing_more_as_a_runner():
     robot = OneRobot(0x42).turn_to(State.JOIN)
     robot.memory.inhibiting_until = robot.reading.cycle + 10
