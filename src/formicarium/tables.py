@@ -7,7 +7,10 @@ from pydantic import BaseModel, ConfigDict, Field
 
 
 def number(default: Any, unit: str, description: str, **bounds: Any) -> Any:
-    """Declare one number (or a list of numbers, which stays in Python) of a table with its unit, its reason or source, and its bounds (ge, gt, le, lt)."""
+    """Declare one number of a table with its unit, its reason or source, and its bounds (ge, gt, le, lt).
+
+    A list of numbers can be declared too; it stays in Python and does not reach the record.
+    """
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 
