@@ -72,10 +72,22 @@ def test_the_dead_are_still_bodies():
     assert state.readings[1].proximity.max() > 0.8
 
 
-def test_a_dead_robot_is_neither_seen_nor_heard():
+def speaker():
+    """Return a state in which a robot is lit and speaks through all its emitters, and its place in memory."""
     state = begin(mark_i3_parameters(), 4)
-    state.commands[3].colour, state.commands[3].enabled[:] = Colour.CYAN, 1
-    state.robots[3].dies_at = 0
+    for _ in range(600):
+        run(state, 10)
+        drain(state)
+        loud = (state.commands.colour != Colour.OFF) & state.commands.enabled.all(axis=1)
+        if loud.any():
+            return state, int(np.argmax(loud))
+    raise AssertionError("nobody ever spoke")
+
+
+def test_a_robot_that_dies_falls_dark_and_silent_in_the_midst_of_its_word():
+    state, i = speaker()
+    assert state.robots[i].speaking == 1
+    state.robots[i].dies_at = state.clock[0].cycle
     run(state, 1)
-    drain(state)
-    assert state.commands[3].colour == Colour.OFF and state.robots[3].speaking == 0
+    assert state.robots[i].alive == 0 and state.robots[i].speaking == 0
+    assert state.commands[i].colour == Colour.OFF and not state.commands[i].enabled.any()

@@ -6,7 +6,7 @@ from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.control.moves import steer
 from formicarium.robots.epuck import PROXIMITY_ANGLES, PROXIMITY_COSINES, PROXIMITY_SINES
-from formicarium.robots.records import PROXIMITY_SENSORS
+from formicarium.robots.records import PROXIMITY_SENSORS, Colour
 from formicarium.systems.sequencing.perception import is_member
 
 MEMBER_SIDE = math.pi / 3.0  # rad, proximity sensors this near to the reference's bearing look at the chain
@@ -77,6 +77,18 @@ def repulsion(reading, bearing, threshold):
 
 
 @compiled
+def presses_member(reading, clearance):
+    """Tell whether a chain member is so near ahead that driving on would push it out of its place."""
+    for n in range(reading.blob_count):
+        blob = reading.blobs[n]
+        if blob.distance > clearance:
+            return False
+        if blob.colour >= Colour.CYAN and abs(blob.bearing) < MEMBER_SIDE:
+            return True
+    return False
+
+
+@compiled
 def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
     """Steer along the chain whose nearest place is (x, y)."""
     vx, vy = circle_direction(x, y, table.follow_distance, table.radial_gain)
@@ -84,4 +96,5 @@ def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
         push_x, push_y = repulsion(reading, math.atan2(y, x), table.repulsion_value)
         vx += table.repulsion_weight * push_x
         vy += table.repulsion_weight * push_y
-    steer(command, math.atan2(vy, vx), table.follow_speed, table.steering_gain, table.turn_rate, wheel_distance)
+    speed = 0.0 if presses_member(reading, table.member_clearance) else table.follow_speed
+    steer(command, math.atan2(vy, vx), speed, table.steering_gain, table.turn_rate, wheel_distance)

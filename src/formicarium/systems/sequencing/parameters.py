@@ -99,6 +99,7 @@ class BehaviourTable(Table):
     literal_line: bool = number(False, "1", "do not clamp the foot of the perpendicular to the segment TS-97")
     repulsion_value: float = number(0.3, "1", "proximity above which a following robot is pushed off U44", ge=0)
     repulsion_weight: float = number(0.5, "1", "U44", ge=0)
+    member_clearance: float = number(0.085, "m", "a runner does not drive at a chain member nearer than this [choice]", ge=0)
     lost_after: int = number(20, "cycles", "a runner that sees no chain for so long walks at random U34", ge=1)
     decide_distance: float = number(0.30, "m", "a runner heeds the guardian within this TS-100", gt=0)
     advert_memory: int = number(10, "cycles", "an advertisement counts for so long [choice]", ge=1)
