@@ -1,6 +1,5 @@
 import pytest
 
-from contracts.states import Handles, handles
 from formicarium.systems import registry
 
 
@@ -12,8 +11,3 @@ def name(request) -> str:
 @pytest.fixture
 def system(name) -> registry.System:
     return registry.resolve(name)
-
-
-@pytest.fixture
-def ways(name) -> Handles:
-    return handles(name)

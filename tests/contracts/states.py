@@ -2,30 +2,13 @@
 
 import itertools
 import math
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from formicarium.physics.world import ADJUSTABLE, make_world
 from formicarium.systems.registry import resolve
-from formicarium.systems.sequencing import loop, setup, study
-
-
-class Handles(NamedTuple):
-    """What a contract needs of a system beside ``run``."""
-
-    begin: Callable[..., Any]  # (parameters, seed, *, storage) -> state before the first cycle
-    advance: Callable[[Any, int], None]  # the compiled loop
-    roles: Callable[[Any], np.ndarray]  # numbers as in Scene.roles
-
-
-def handles(name: str) -> Handles:
-    """Return the handles of a system; the only place of the contracts that knows one by name."""
-    system = resolve(name)
-    if hasattr(system, "begin"):
-        return Handles(system.begin, system.advance, system.roles)
-    return Handles(setup.begin, loop.run, study.frame_roles)
 
 
 def copy_of(state: Any) -> Any:
@@ -35,13 +18,13 @@ def copy_of(state: Any) -> Any:
 
 def recorded(name: str, every: int, parameters: Any = None, first_seed: int = 1) -> Iterator[Any]:
     """Yield copies of the states of trials ``first_seed``, ``first_seed`` + 1, ..., one every so many cycles."""
-    system, ways = resolve(name), handles(name)
+    system = resolve(name)
     for seed in itertools.count(first_seed):
-        state = ways.begin(parameters or system.configure(), seed)
+        state = system.begin(parameters or system.configure(), seed)
         clock = state.clock[0]
         while not clock.finished and clock.cycle < clock.last_cycle:
             yield copy_of(state)
-            ways.advance(state, every)
+            system.advance(state, every)
             clock.event_count = 0
 
 

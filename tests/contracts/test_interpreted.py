@@ -10,20 +10,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contracts.states import copy_of, differences, handles, recorded
+from contracts.states import copy_of, differences, recorded
 from formicarium.compiled import source_hash
 from formicarium.systems.registry import resolve
 
 PROGRAM = """
 import pickle, sys
 sys.path.insert(0, sys.argv[1])
-from contracts.states import handles
+from formicarium.systems.registry import resolve
 from formicarium.compiled import INTERPRETED, source_hash
 assert INTERPRETED
 if source_hash() != sys.argv[4]:
     sys.exit("the sources were edited while the test ran")
 state = pickle.load(sys.stdin.buffer)
-handles(sys.argv[2]).advance(state, int(sys.argv[3]))
+resolve(sys.argv[2]).advance(state, int(sys.argv[3]))
 pickle.dump(state, sys.stdout.buffer)
 """
 
@@ -42,13 +42,13 @@ def interpreted(name, state, cycles):
 
 def compiled(name, state, cycles):
     state = copy_of(state)
-    handles(name).advance(state, cycles)
+    resolve(name).advance(state, cycles)
     return state
 
 
 def windows(name, count, length):
     """Return starting states that together have every role of the living; a robot dies in each window."""
-    roles = handles(name).roles
+    roles = resolve(name).roles
     pool = list(itertools.islice(recorded(name, every=length), 40))
     chosen = []
     while pool and len(chosen) < count:
@@ -78,7 +78,7 @@ def test_a_short_window_in_the_midst_of_a_trial(name):
 @pytest.mark.long
 def test_ten_windows_of_a_minute_with_every_role(name):
     starts = windows(name, 10, 600)
-    roles = set(np.concatenate([handles(name).roles(state) for state in starts]).tolist())
+    roles = set(np.concatenate([resolve(name).roles(state) for state in starts]).tolist())
     assert roles >= wanted(name) and len(starts) == 10
     for start in starts:
         assert differences(interpreted(name, start, 600), compiled(name, start, 600)) == []

@@ -30,8 +30,8 @@ def test_another_seed_is_another_trial(system):
     assert len({trial.events.tobytes() for trial in trials}) == 3
 
 
-def test_the_seed_decides_where_everybody_starts(system, ways):
-    starts = [ways.begin(small(system), seed).world.bodies for seed in (5, 5, 6)]
+def test_the_seed_decides_where_everybody_starts(system):
+    starts = [system.begin(small(system), seed).world.bodies for seed in (5, 5, 6)]
     assert starts[0].tobytes() == starts[1].tobytes()
     assert not np.isin(starts[2].x, starts[0].x).any()
 
@@ -46,28 +46,28 @@ def test_a_watched_trial_is_the_unwatched_trial(system):
 
 
 @pytest.mark.parametrize("look", [1, 37, 10_000])
-def test_the_length_of_a_look_changes_nothing(system, ways, look):
+def test_the_length_of_a_look_changes_nothing(system, look):
     logs, states = [], []
     for length in (100, look):
-        state = ways.begin(small(system), 9)
+        state = system.begin(small(system), 9)
         state.clock[0].last_cycle = 4000
-        logs.append(simulate(ways.advance, state, look=length))
+        logs.append(simulate(system.advance, state, look=length))
         states.append(state)
     assert logs[0].tobytes() == logs[1].tobytes()
     assert differences(states[0]._replace(events=states[1].events), states[1]) == []
 
 
 @pytest.mark.parametrize("order", ["reversed", "shuffled"])
-def test_where_robots_are_stored_does_not_matter(system, ways, order):
+def test_where_robots_are_stored_does_not_matter(system, order):
     parameters = system.configure()
-    count = len(ways.begin(parameters, 4).robots)
+    count = len(system.begin(parameters, 4).robots)
     storage = np.arange(count)[::-1] if order == "reversed" else np.random.default_rng(1).permutation(count)
-    plain, mixed = ways.begin(parameters, 4), ways.begin(parameters, 4, storage=storage)
+    plain, mixed = system.begin(parameters, 4), system.begin(parameters, 4, storage=storage)
     assert mixed.robots.key[storage].tolist() == plain.robots.key.tolist()
     logs = []
     for state in (plain, mixed):
         state.clock[0].last_cycle = 6000
-        logs.append(simulate(ways.advance, state))
+        logs.append(simulate(system.advance, state))
     assert len(logs[0]) > count
     assert logs[1].tobytes() == logs[0].tobytes()
     for part in ("robots", "memories", "commands"):

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from formicarium.robots.records import SILENCE, Colour
 from formicarium.systems.sequencing.loop import run
@@ -32,6 +33,24 @@ def test_every_death_is_logged_once_when_it_happens():
     assert {int(event["robot"]): int(event["cycle"]) for event in deaths} == due
     assert len(deaths) == len(due) > 5
     assert (state.robots.alive == 0).sum() == len(due)
+
+
+def test_robots_on_the_list_die_when_it_says_and_nobody_else():
+    parameters = mark_i3_parameters(swarm={"deaths": [[2, 12.3], [20, 0.0]], "time_cap": 30.0})
+    storage = np.random.default_rng(1).permutation(20)
+    for state in (begin(parameters, 4), begin(parameters, 4, storage=storage)):
+        events = simulate(run, state)
+        deaths = events[events["kind"] == EventKind.DIED]
+        named = {int(robot.key): int(robot.identity) for robot in state.robots}
+        assert deaths["cycle"].tolist() == [0, 123]
+        assert deaths["robot"].tolist() == [named[19], named[1]]
+        assert (state.robots.alive == 0).sum() == 2
+
+
+@pytest.mark.parametrize("wrong", [[0, 1.0], [21, 1.0], [1, -0.1]])
+def test_a_list_of_deaths_that_cannot_be_is_refused(wrong):
+    with pytest.raises(ValidationError, match="deaths"):
+        mark_i3_parameters(swarm={"deaths": [wrong]})
 
 
 def killed(cycle=300, seed=4):

@@ -12,6 +12,8 @@ from formicarium.streams import generator, stream
 
 IDENTITIES = 255  # robots carry one byte, 0 means nobody
 PLACING_ATTEMPTS = 20_000
+APART = 0.08  # m, least distance between two robots at the start (U42)
+WALL_MARGIN = 0.06  # m, and between a robot and a wall
 
 
 class NoRoom(ValueError):
@@ -40,8 +42,8 @@ def random_places(
     keep_off: np.ndarray,
     off: float,
     seed: int,
-    apart: float = 0.08,
-    margin: float = 0.06,
+    apart: float = APART,
+    margin: float = WALL_MARGIN,
 ) -> np.ndarray:
     """Return ``count`` places (x, y, heading), uniform, ``apart`` from each other and ``margin`` from walls (U42).
 

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from formicarium.devices.booth import BoothTable
 from formicarium.robots.epuck import Epuck
 from formicarium.tables import Table, number
+from formicarium.trial.setup import APART, WALL_MARGIN
 
 
 def degrees(value: float) -> float:
@@ -99,7 +100,9 @@ class BehaviourTable(Table):
     literal_line: bool = number(False, "1", "do not clamp the foot of the perpendicular to the segment TS-97")
     repulsion_value: float = number(0.3, "1", "proximity above which a following robot is pushed off U44", ge=0)
     repulsion_weight: float = number(0.5, "1", "U44", ge=0)
-    member_clearance: float = number(0.085, "m", "a runner does not drive at a chain member nearer than this [choice]", ge=0)
+    member_clearance: float = number(
+        0.085, "m", "a runner does not drive at a chain member nearer than this [choice]", ge=0
+    )
     lost_after: int = number(20, "cycles", "a runner that sees no chain for so long walks at random U34", ge=1)
     decide_distance: float = number(0.30, "m", "a runner heeds the guardian within this TS-100", gt=0)
     advert_memory: int = number(10, "cycles", "an advertisement counts for so long [choice]", ge=1)
@@ -208,6 +211,19 @@ class SequencingParameters(BaseModel):
         if self.behaviour.tasks != self.arena.tasks:
             raise ValueError(
                 f"behaviour.tasks is {self.behaviour.tasks} but arena.tasks is {self.arena.tasks}: they must be equal"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def robots_fit(self) -> "SequencingParameters":
+        """Refuse more robots than random placing can find room for (jamming density of discs, 0.547)."""
+        inset = 0.5 * self.arena.side / math.tan(math.pi / self.arena.sides) - WALL_MARGIN
+        area = self.arena.sides * max(0.0, inset) ** 2 * math.tan(math.pi / self.arena.sides)
+        room = int(0.5 * area / (math.pi * (0.5 * APART) ** 2))
+        if self.swarm.robots > room:
+            raise ValueError(
+                f"swarm.robots is {self.swarm.robots}, but an arena with sides of {self.arena.side:.2f} m has room "
+                f"for {room} at the start: fewer robots, a larger arena.side or a higher --setting"
             )
         return self
 
