@@ -83,7 +83,7 @@ def with_settings(parameters: BaseModel, settings: Iterable[str]) -> BaseModel:
 def in_words(error: ValidationError) -> str:
     """Say which fields of a model are wrong and why."""
     lines = [
-        f"{'.'.join(map(str, problem['loc'])) or 'parameters'}: {problem['msg']}"
+        f"{'.'.join(map(str, problem['loc'])) or 'parameters'}: {problem['msg'].removeprefix('Value error, ')}"
         + (f" (got {problem['input']!r})" if not isinstance(problem["input"], dict | BaseModel) else "")
         for problem in error.errors()
     ]
