@@ -1,5 +1,6 @@
 """Real processes, interrupted and killed: what was done stays, the same command continues, each run once."""
 
+import io
 import os
 import signal
 import subprocess
@@ -40,7 +41,7 @@ def start(folder, *more, **options):
 
 def seeds_in(folder):
     path = folder / "runs.parquet"
-    return pq.read_table(path)["seed"].to_pylist() if path.exists() else []
+    return pq.read_table(io.BytesIO(path.read_bytes()))["seed"].to_pylist() if path.exists() else []
 
 
 def wait_for_rows(folder, count, process):

@@ -197,7 +197,6 @@ def test_a_sequence_whose_last_task_was_done_in_absence_does_not_count():
     assert puppets.count(EventKind.DISAGREEMENT) == 1
 
 
-@pytest.mark.xfail(strict=True, reason="note_execution enters tasks done in absence into the referee's history")
 def test_no_task_done_in_absence_counts():
     puppets = Puppets()
     puppets.visit(0, 0, 1, instead=7)

@@ -11,7 +11,7 @@ from formicarium.systems.sequencing.member import begin_message, distance_error,
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.perception import track_neighbours
 
-ALIGNED = 1e-9  # below this the mean direction of the neighbours is undefined: perfectly aligned
+ALIGNED = 1e-9  # a sum of unit vectors shorter than this has no direction
 
 
 @compiled
@@ -72,7 +72,10 @@ def keep_in_line(predecessor, successor, command, table, tolerance, wheel_distan
         align_weight = 1.0 if askew else 0.0
     x = distance_weight * distance_x + align_weight * align_x
     y = distance_weight * distance_y + align_weight * align_y
-    speed = table.member_speed * min(1.0, math.sqrt(x * x + y * y))
+    urgency = math.sqrt(x * x + y * y)
+    if urgency < ALIGNED:
+        return False  # the components cancel: no direction to move in
+    speed = table.member_speed * min(1.0, urgency)
     shift(command, math.atan2(y, x), speed, table.steering_gain, table.turn_rate, wheel_distance)
     return False
 

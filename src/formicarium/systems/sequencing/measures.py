@@ -112,12 +112,12 @@ def note_execution(state, b, task_cycles):
         chain.faults = coordinator.faults
         write_event(clock, state.events, EventKind.PROTOCOL_FAULT, who, booth.colour, booth.claim, 0)
     present = record.booth == b and clock.cycle - record.since >= task_cycles
-    complete = executed(record, booth.colour, coordinator.order, coordinator.tasks)
+    complete = present and executed(record, booth.colour, coordinator.order, coordinator.tasks)
     claimed = success and booth.claim == coordinator.tasks
     if not present or complete != claimed:
         write_event(clock, state.events, EventKind.DISAGREEMENT, who, booth.colour, 0, 0)
     own_first = state.memories[i].candidate == 1  # a future guardian's own execution never counts (TS-137)
-    if complete and present and not own_first:
+    if complete and not own_first:
         chain.sequences += 1
         write_event(clock, state.events, EventKind.SEQUENCE, who, 0, chain.sequences, 0)
 

@@ -157,6 +157,14 @@ def find_by_bearing(track, reading, bearing, table):
 
 
 @compiled
+def coincide(first, second, table):
+    """Tell whether two tracks have fallen onto the same robot: nearer to each other than two robots can be."""
+    dx = first.x - second.x
+    dy = first.y - second.y
+    return first.known == 1 and second.known == 1 and dx * dx + dy * dy < (0.5 * table.track_gate) ** 2
+
+
+@compiled
 def track_neighbours(reading, memory, table):
     """Keep predecessor and successor in view; look for a lost one by its packets (LNK_NO one less or more)."""
     if memory.predecessor.known == 1:
@@ -164,6 +172,9 @@ def track_neighbours(reading, memory, table):
     if memory.successor.known == 1:
         follow_track(memory.successor, reading, table)
     cycle = reading.cycle
+    if coincide(memory.predecessor, memory.successor, table):
+        memory.predecessor.seen = cycle - table.track_refind - 1
+        memory.successor.seen = cycle - table.track_refind - 1
     predecessor_lost = cycle - memory.predecessor.seen > table.track_refind
     successor_lost = memory.successor.known == 1 and cycle - memory.successor.seen > table.track_refind
     if not predecessor_lost and not successor_lost:
