@@ -80,8 +80,10 @@ def check(story):
     """Hold a trial to all of it; return how often somebody entered a booth and how often a standing member moved."""
     steps = np.hypot(*np.diff(story.places, axis=0).transpose(2, 0, 1))
     near = nearest(story.places)
+    gap = distance_to_scenery(story.places, story.state.world.segments)
+    print(f"least distances: {near.min():.5f} m between robots, {gap:.5f} m to walls; longest step {steps.max():.5f} m")
     assert near.min() >= 0.07 - OVERLAP
-    assert distance_to_scenery(story.places, story.state.world.segments) >= 0.035 - OVERLAP
+    assert gap >= 0.035 - OVERLAP
     assert steps.max() <= STEP
     # Walls stand 0.033 m or more from every centre and nobody jumps 0.017 m: no wall was crossed.
     still = story.standing[1:] & story.standing[:-1]
@@ -97,7 +99,7 @@ def test_robots_are_solid_and_walls_are_walls(setting):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", range(1, 11))
+@pytest.mark.parametrize("seed", range(20001, 20101))  # the reported runs, docs/results/seeds.md
 def test_robots_are_solid_and_walls_are_walls_for_a_whole_trial(seed):
     check(track(seed, 2400))
 
