@@ -7,6 +7,7 @@ from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to
 from formicarium.robots.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
 from formicarium.robots.records import SILENCE, Colour
+from formicarium.systems.sequencing.following import presses_member
 from formicarium.systems.sequencing.guardian import become_guardian
 from formicarium.systems.sequencing.memory import State, enter
 from formicarium.systems.sequencing.perception import locate_lights, nearest_blob
@@ -77,7 +78,8 @@ def approach(reading, memory, command, table, epuck):
         else:
             enter(memory, State.FOLLOW, cycle)
         return
-    if memory.target.known == 0:
+    pressing = distance > table.straight_within and presses_member(reading, table.member_clearance)
+    if memory.target.known == 0 or pressing:
         stop(command)
     elif distance < table.straight_within:
         drive(command, table.approach_speed, 0.0, epuck.wheel_distance)

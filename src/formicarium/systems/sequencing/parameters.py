@@ -174,7 +174,9 @@ class BehaviourTable(Table):
     position_band: float = number(0.02, "m", "dead band of the tail's distance servo [probe]", ge=0)
     position_hold: int = number(10, "cycles", "in place so long before it invites TS-77", ge=0)
     sweep_idle: int = number(120, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
-    sweep_burst: int = number(20, "cycles", "U13 [tuned]", ge=1)
+    sweep_angle: float = number(
+        degrees(4), "rad", "by which the branch turns before it pauses: a short one is not to overshoot [choice, for U13]", gt=0
+    )
     sweep_pause: int = number(50, "cycles", "U13", ge=0)
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)

@@ -23,6 +23,7 @@ from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.messages import LINK_NUMBER_LIMIT
 from formicarium.systems.sequencing.perception import guarded_colour, track_neighbours
 
+CYCLE_TIME = 0.1  # s, the paper's control period
 SERVO_GAIN = 2.0  # 1/s, speed per distance error of the tail
 
 
@@ -125,6 +126,13 @@ def open_branch(reading, memory, command, table, epuck):
 
 
 @compiled
+def burst(memory, table):
+    """Return how long to sweep, cycles: until the branch, link_number * spacing long, has turned by one step."""
+    length = memory.link_number * table.spacing
+    return max(1, int(table.sweep_angle * length / table.sweep_speed / CYCLE_TIME))
+
+
+@compiled
 def sweep(reading, memory, command, table, epuck):
     """Move slowly to the left of the branch for one burst (TS-84), then pause."""
     cycle = reading.cycle
@@ -132,7 +140,7 @@ def sweep(reading, memory, command, table, epuck):
     if spot_guardian(reading, memory, table):
         memory.settled = cycle
         enter(memory, State.DOCK, cycle)
-    elif cycle - memory.since >= table.sweep_burst:
+    elif cycle - memory.since >= burst(memory, table):
         memory.requested = cycle
         memory.sweep_due = table.sweep_pause
         enter(memory, State.OPEN, cycle)
