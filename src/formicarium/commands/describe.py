@@ -1,5 +1,7 @@
 """``formicarium describe SYSTEM``: every parameter of a system."""
 
+WIDTH = 200  # characters
+
 
 def describe(system: str, /) -> None:
     """Show all parameters of a system: name, default, unit, allowed values, and where the number is from.
@@ -21,8 +23,11 @@ def describe(system: str, /) -> None:
 
     found = find_system(system)
     console = Console()
+    if not console.is_terminal:
+        console = Console(width=WIDTH)  # for grep and files: one parameter a line
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for title in ("name", "default", "unit", "allowed", "what it is, and its source"):
+    table.add_column("name", no_wrap=True)
+    for title in ("default", "unit", "allowed", "what it is, and its source"):
         table.add_column(title, overflow="fold")
     content = found.configure().model_dump()
     group = ""

@@ -13,7 +13,7 @@ from formicarium.commands.errors import UserError, near
 class NamedField(NamedTuple):
     """One number of a system's parameters."""
 
-    path: str  # "booth.dwell_time"
+    path: str  # "booth.task_time"
     info: FieldInfo
 
     @property
@@ -58,7 +58,7 @@ def fields(model: type[BaseModel], prefix: str = "") -> Iterator[NamedField]:
 
 
 def with_settings(parameters: BaseModel, settings: Iterable[str]) -> BaseModel:
-    """Return the parameters with settings like "booth.dwell_time=8" or "dwell_time=8" made.
+    """Return the parameters with settings like "booth.task_time=8" or "dwell_time=8" made.
 
     Raises:
         UserError: if a name is unknown or ambiguous, or a value not allowed.

@@ -5,18 +5,20 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from formicarium.commands.whole import Whole
+
 
 def run(
     system: str,
     /,
     *,
-    runs: int = 1,
-    seed: int = 1,
-    robots: int | None = None,
-    setting: int | None = None,
+    runs: Whole = 1,
+    seed: Whole = 1,
+    robots: Whole | None = None,
+    setting: Whole | None = None,
     set_: Annotated[list[str] | None, Parameter(name="--set", negative="")] = None,
-    out: Path | None = None,
-    workers: int | None = None,
+    out: str | None = None,
+    workers: Whole | None = None,
     movie: Annotated[bool, Parameter(negative="")] = False,
     frames: float | None = None,
 ) -> int:
@@ -31,7 +33,7 @@ def run(
         formicarium run mark-i3
         formicarium run mark-i3 --seed 7 --movie
         formicarium run mark-i3 --runs 30 --setting 2 --out study
-        formicarium run mark-i3 --robots 28 --set booth.dwell_time=4
+        formicarium run mark-i3 --robots 28 --set booth.task_time=4
 
     Parameters
     ----------
@@ -56,6 +58,10 @@ def run(
     frames
         Seconds between two records of all positions; 2 for a single run, 0.5 for a movie if not given.
     """
+    from formicarium.commands.errors import UserError
     from formicarium.commands.session import Request, perform
 
-    return perform(Request(system, runs, seed, robots, setting, tuple(set_ or ()), out, workers, movie, frames))
+    if out == "":
+        raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
+    folder = None if out is None else Path(out)
+    return perform(Request(system, runs, seed, robots, setting, tuple(set_ or ()), folder, workers, movie, frames))

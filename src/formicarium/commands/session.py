@@ -22,6 +22,7 @@ from formicarium.compiled import PACKAGE
 FRAMES_OF_ONE_RUN = 2.0  # seconds: enough for the last frame and a look at the way there
 FRAMES_OF_A_MOVIE = 0.5  # seconds: 15 times real time at 30 pictures a second
 MOVIES = 10  # with more runs than this only the first gets a movie
+MOST_RUNS = 100_000  # in one set
 LIBRARIES = ("formicarium", "numba", "numpy", "scipy", "pydantic", "pyarrow", "matplotlib")
 
 
@@ -95,6 +96,10 @@ def _check(request: Request) -> None:
     for name, value in limits.items():
         if value is not None and value < 1:
             raise UserError(f"--{name} {value}: must be at least 1")
+    if request.runs > MOST_RUNS:
+        raise UserError(
+            f"--runs {request.runs}: at most {MOST_RUNS}; a larger set is several, each with its own --seed"
+        )
     if not 0 <= request.seed < 2**63 - request.runs:
         raise UserError(f"--seed {request.seed}: must be a whole number from 0 to 2^63 - 1 (with all runs)")
     if request.frames is not None and not (math.isfinite(request.frames) and request.frames > 0):

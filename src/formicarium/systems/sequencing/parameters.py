@@ -153,7 +153,7 @@ class BehaviourTable(Table):
     )
 
     # chain members
-    spacing: float = number(0.17, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
+    spacing: float = number(0.18, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
     spacing_tolerance: float = number(0.05, "m", "[paper]", ge=0)
     alignment_tolerance: float = number(degrees(10), "rad", "[paper]", ge=0)
     separate_tolerances: bool = number(
@@ -175,7 +175,10 @@ class BehaviourTable(Table):
     position_hold: int = number(10, "cycles", "in place so long before it invites TS-77", ge=0)
     sweep_idle: int = number(120, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
     sweep_angle: float = number(
-        degrees(4), "rad", "by which the branch turns before it pauses: a short one is not to overshoot [choice, for U13]", gt=0
+        degrees(4),
+        "rad",
+        "by which the branch turns before it pauses: a short one is not to overshoot [choice, for U13]",
+        gt=0,
     )
     sweep_pause: int = number(50, "cycles", "U13", ge=0)
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
