@@ -9,7 +9,7 @@ from formicarium.physics.grid import find_neighbours
 from formicarium.physics.step import step
 from formicarium.physics.world import make_bodies, make_world, polygon_walls, regular_polygon
 
-# The disc on which the cases of design/epuck.md 2.2 were measured.
+# The disc on which the cases of docs/choices.md were measured.
 DISC = {"radius": 0.035, "mass": 0.4, "inertia": 9.8e-4, "force_limit": 1.5, "torque_limit": 1.5}
 SLOP = 0.0001  # m, the default of make_world
 

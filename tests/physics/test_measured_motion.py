@@ -1,4 +1,4 @@
-"""The cases measured in the reference simulator (design/epuck.md 2.2), and closed formulas of mechanics."""
+"""The cases measured in the reference simulator (docs/choices.md), and closed formulas of mechanics."""
 
 import math
 

@@ -14,6 +14,6 @@ def test_every_identity_fits_into_two_bytes_and_comes_out_again():
 def test_no_two_words_share_a_byte():
     spoken = [{infrared.HIGH_HALF | n for n in range(16)}, {infrared.LOW_HALF | n for n in range(16)}]
     spoken += [{infrared.CLAIM | n for n in range(16)}]
-    answers = ("HEARD_HIGH", "HEARD_LOW", "WORKING", "SUCCESS", "FAILURE", "NOTED")
+    answers = ("HEARD_HIGH", "HEARD_LOW", "WORKING", "SUCCESS", "FAILURE")
     spoken += [{getattr(infrared, name)} for name in answers] + [{SILENCE}]
     assert len(set.union(*spoken)) == sum(len(words) for words in spoken)

@@ -9,7 +9,7 @@ from formicarium.physics.world import chain
 from formicarium.robots.epuck import PROXIMITY_ANGLES
 from robots.stage import QUIET, Stage
 
-# design/epuck.md 2.4: gap between body and wall (mm), value of the sensor that faces it; contact reads 1 here.
+# docs/choices.md: gap between body and wall (mm), value of the sensor that faces it; contact reads 1 here.
 TABLE = [(0.0, 1.0), (1.5, 1.0), (5.0, 0.939), (10.0, 0.774), (20.0, 0.489), (30.0, 0.263), (40.0, 0.097), (60.0, 0.0)]
 
 

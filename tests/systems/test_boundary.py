@@ -73,7 +73,7 @@ def test_in_a_process_of_its_own_readings_alone_give_every_command_bit_for_bit(r
     assert commands.shape == (CYCLES, 20)
     for name in COMMAND.names:
         assert (replayed[name] == commands[name]).all(), name
-    assert len(np.unique(commands["left"])) > 1000
+    assert len(np.unique(commands["left"])) > 300
 
 
 def test_nothing_in_a_reading_is_a_place_in_the_world_or_somebody_elses_memory():

@@ -138,6 +138,7 @@ def test_the_timeline_shows_who_was_what_from_when_to_when():
         (50.0, EventKind.DIED, 7, 1, Role.GUARDIAN),
         (60.0, EventKind.SEQUENCE, 9, 0, 1),
     )
+    events["cycle"] -= 1  # what happens in a cycle has happened at its end
     shown = timeline(Trial({"duration_s": 100.0}, events, None, SCENE))
     assert shown.lanes == ("3", "7", "9") and shown.duration == 100.0
     spans = {

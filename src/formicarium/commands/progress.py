@@ -23,7 +23,6 @@ class Progress:
             console=console,
             transient=True,
         )
-        self._name = name
         self._single = runs == 1
         self._set = self._bars.add_task(name, total=runs, words="starting", visible=not self._single)
         self._inside = self._bars.add_task(

@@ -63,6 +63,8 @@ def print_summary(
     if rows:
         console.print(_one_run(system, rows[0]) if len(seeds) == 1 else _targets(system, rows))
         _print_causes(console, rows)
+        if system.targets.published:
+            console.print(f"published {system.targets.published_label}", highlight=False, soft_wrap=True)
     console.print(f"results   {folder}", highlight=False, soft_wrap=True)
     for path in pictures:
         console.print(f"          {path}", highlight=False, soft_wrap=True)

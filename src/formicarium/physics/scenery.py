@@ -9,7 +9,7 @@ from formicarium.physics.records import OBSTACLE, SEGMENT, copied, records
 
 Point = tuple[float, float]
 
-WALL_FRICTION = 0.1  # of walls, boxes and booths; design/epuck.md 2.2
+WALL_FRICTION = 0.1  # of walls, boxes and booths; docs/choices.md
 
 
 def joined(*pieces: np.ndarray) -> np.recarray:

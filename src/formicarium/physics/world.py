@@ -45,7 +45,7 @@ __all__ = [
     "regular_polygon",
 ]
 
-# What a caller may set, with the values of the reference simulator (design/epuck.md 2.2) except for slop,
+# What a caller may set, with the values of the reference simulator (docs/choices.md) except for slop,
 # whose 0.1 m there lets overlapping bodies overlap for ever.
 ADJUSTABLE = {
     "cycle_time": 0.1,

@@ -17,7 +17,7 @@ PROXIMITY_SINES = np.sin(PROXIMITY_ANGLES)
 class Epuck(Table):
     """Body, wheels, sensors and their noise."""
 
-    radius: float = number(0.035, "m", "body radius [paper: diameter 70 mm]", gt=0)
+    radius: float = number(0.035, "m", "body radius [paper: diameter 70 mm]", gt=0, le=0.04)
     mass: float = number(0.4, "kg", "[model]", gt=0)
     inertia: float = number(9.8e-4, "kg m2", "moment of inertia, four times a disc's [model]", gt=0)
     force_limit: float = number(1.5, "N", "largest force of the drive [model]", gt=0)

@@ -8,4 +8,3 @@ HEARD_LOW = 0x11  # booth: identity complete, claim your task
 WORKING = 0x12  # booth: claim noted, stay
 SUCCESS = 0x7F  # booth: task done, in the right order
 FAILURE = 0x70  # booth: task done, out of order
-NOTED = 0x78  # booth: task done, no verdict yet (delayed feedback)

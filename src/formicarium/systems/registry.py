@@ -76,7 +76,7 @@ def _unregistered(name: str) -> System:
     module, _, attribute = name.partition(":")
     try:
         system = getattr(import_module(module), attribute)
-    except (AttributeError, ModuleNotFoundError, ValueError) as error:
+    except (AttributeError, ModuleNotFoundError, TypeError, ValueError) as error:
         if isinstance(error, ModuleNotFoundError) and not f"{module}.".startswith(f"{error.name}."):
             raise  # the module is there, something that it imports is not
         raise UnknownSystem(f"there is no system {name!r}: {error}") from error

@@ -12,6 +12,7 @@ from formicarium.streams import generator, stream
 
 IDENTITIES = 255  # robots carry one byte, 0 means nobody
 PLACING_ATTEMPTS = 20_000
+NEVER_DIES = 10**12  # cycles
 APART = 0.08  # m, least distance between two robots at the start (U42)
 WALL_MARGIN = 0.06  # m, and between a robot and a wall
 
@@ -104,7 +105,7 @@ def make_crew(
         robot.identity = identities[key]
         robot.key = key
         robot.alive = 1
-        robot.dies_at = int(lives[key] / failure_rate / cycle_time) if failure_rate > 0 else -1
+        robot.dies_at = int(min(lives[key] / failure_rate / cycle_time, NEVER_DIES)) if failure_rate > 0 else -1
         robot.noise = stream(seed, "noise", key)
         robot.infrared_heard = SILENCE
     for number, seconds in deaths:

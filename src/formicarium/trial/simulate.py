@@ -64,7 +64,8 @@ def simulate(
     state: Any,
     *,
     look: int = LOOK,
-    after_look: Callable[[Any], None] | None = None,
+    every: int = 1,
+    take: Callable[[Any], None] | None = None,
     watch: Callable[[float, float], None] | None = None,
 ) -> np.ndarray:
     """Run a trial to its end and return its events.
@@ -72,20 +73,22 @@ def simulate(
     Args:
         run: the system's compiled loop, ``run(state, cycles)``.
         state: the system's state, changed in place.
-        look: cycles between two looks.
-        after_look: called with the state at the start and after every look, to take frames.
-        watch: called with (seconds simulated, seconds at most).
+        look: cycles between two looks, at most; the event log has room for LOOK.
+        every: cycles between two frames.
+        take: called with the state at the start, every so many cycles and at the end.
+        watch: called after every look with (seconds simulated, seconds at most).
     """
     clock = state.clock[0]
     cycle_time = float(state.world.settings[0].cycle_time)
     logs = []
-    if after_look:
-        after_look(state)
+    if take:
+        take(state)
     while not clock.finished and clock.cycle < clock.last_cycle:
-        run(state, min(look, int(clock.last_cycle - clock.cycle)))
+        cycles = min(look, int(clock.last_cycle - clock.cycle))
+        run(state, min(cycles, every - int(clock.cycle) % every) if take else cycles)
         logs.append(drain(state))
-        if after_look:
-            after_look(state)
+        if take and (clock.cycle % every == 0 or clock.finished or clock.cycle >= clock.last_cycle):
+            take(state)
         if watch:
             watch(float(clock.cycle) * cycle_time, float(clock.last_cycle) * cycle_time)
     return np.concatenate(logs) if logs else np.zeros(0, EVENT)

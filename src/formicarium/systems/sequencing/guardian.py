@@ -102,13 +102,13 @@ def right_hand(memory):
 @compiled
 def act_as_tail(reading, memory, table):
     """Recruit the first member of the own branch; give up the tail when it has taken over."""
-    sector = right_hand(memory)
-    if relieved(reading, memory, table, sector):
+    memory.sector = right_hand(memory)
+    if relieved(reading, memory, table):
         memory.tail = 0
         memory.in_chain = 1
         enter(memory, State.STAY, reading.cycle)
     elif memory.state == State.OPEN:
-        hear_requests(reading, memory, table, sector)
+        hear_requests(reading, memory, table)
     elif reading.cycle - memory.since > table.offer_patience:
         enter(memory, State.OPEN, reading.cycle)
 

@@ -54,7 +54,6 @@ MEMBER = np.dtype(
 CHAIN = np.dtype(
     [
         ("sequences", "i8"),  # correct sequences by the referee
-        ("goal", "i8"),  # sequences that end the trial
         ("faults", "i8"),  # coordinator's faults already logged
         ("complete", "i8"),  # cycle at which the chain was complete, 0 if not yet
         ("members_complete", "i8"),  # chain members then
@@ -275,17 +274,23 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "protocol_faults": number_of(EventKind.PROTOCOL_FAULT),
         "disagreements": number_of(EventKind.DISAGREEMENT),
         "unfounded": number_of(EventKind.UNFOUNDED),
+        "packets_heard": int(state.robots.packets_heard.sum()),
+        "blobs_dropped": int(state.robots.blobs_dropped.sum()),
     }
     row["cause"] = None if success else cause(row, events, len(state.robots), int(state.behaviour[0].tasks), cycle_time)
     return row
 
 
+GROWING = 120.0  # s since a robot last took a role: the chain was still growing when time was up
 STALLED = 600.0  # s without a new sequence at the end of a trial count as a standstill
 
 
 def cause(row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycle_time: float) -> str:
     """Name why a trial failed, from its event log: the first of these that applies."""
     free = robots - row["members"] - row["died"]
+    died = events[events["kind"] == EventKind.DIED]
+    if row["guardians"] < tasks and (died["value"] == Role.GUARDIAN).any():
+        return "a guardian died"
     if row["guardians"] < tasks:
         return "a task found no guardian"
     if row["guardians"] > tasks:
@@ -293,6 +298,9 @@ def cause(row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycl
     if row["time_chain_s"] is None:
         if free <= 0:
             return "all robots in an unfinished chain"
+        changes = events[events["kind"] == EventKind.ROLE]
+        if len(changes) and row["duration_s"] - float(changes["cycle"][-1]) * cycle_time < GROWING:
+            return "chain still growing at the end"
         return f"branch {row['branches'] + 1} missed its guardian"
     if free <= 0:
         return "all robots in the finished chain"

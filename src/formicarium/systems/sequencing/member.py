@@ -30,6 +30,7 @@ def send(memory, command):
 @compiled
 def send_invitation(memory, command, sector, half_width):
     """Send the message in all directions, as T_DIR through the emitters within the sector."""
+    memory.sector = sector
     memory.message.direction = 0
     encode(memory.message, command.payload[0])
     broadcast(command)
@@ -40,14 +41,14 @@ def send_invitation(memory, command, sector, half_width):
 
 
 @compiled
-def hear_requests(reading, memory, table, sector):
-    """Choose the first runner whose request comes from the sector (first come, first served)."""
+def hear_requests(reading, memory, table):
+    """Choose the first runner whose request comes from the invited sector (first come, first served)."""
     for n in range(reading.packet_count):
         message = memory.heard[n]
         if message.request == 0 or not from_runner(message):
             continue
         bearing = reading.packets[n].bearing
-        if not in_sector(bearing, sector, table.sector_half_width + table.sector_tolerance):
+        if not in_sector(bearing, memory.sector, table.sector_half_width + table.sector_tolerance):
             continue
         memory.requested = reading.cycle
         memory.sweep_due = table.sweep_idle
@@ -57,7 +58,7 @@ def hear_requests(reading, memory, table, sector):
 
 
 @compiled
-def relieved(reading, memory, table, sector):
+def relieved(reading, memory, table):
     """Tell whether the chosen runner has taken over: its T_ACK came, or a magenta light stands in the sector.
 
     The light counts only while the offer is pending; the acknowledgement counts for ever, so that a lost one
@@ -72,7 +73,7 @@ def relieved(reading, memory, table, sector):
                 take_light(reading, memory, packet.bearing, table.refind_gate)
                 return True
     if memory.state == State.OFFER:
-        return take_light(reading, memory, sector, table.sector_half_width)
+        return take_light(reading, memory, memory.sector, table.sector_half_width)
     return False
 
 

@@ -105,6 +105,7 @@ MEMORY = np.dtype(
         ("established", "i8"),  # EST
         ("predecessor", TRACK),
         ("successor", TRACK),
+        ("sector", "f8"),  # rad, middle of the sector invited last
         ("chosen", "i8"),  # identity of the runner, or guardian, chosen as successor
         ("requested", "i8"),  # cycle of the last request, or of the last sweep
         ("sweep_due", "i8"),  # cycles after ``requested`` at which to sweep

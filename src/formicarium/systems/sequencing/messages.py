@@ -1,4 +1,4 @@
-"""The four-byte message of Mark I, bit by bit (Fig. S2; section 12.1 of our ledger).
+"""The four-byte message of Mark I, bit by bit (Fig. S2; docs/choices.md).
 
 DATA[0]        identity: own; in T_RES the chosen runner's; in an inhibition echo the initiator's
 DATA[1] bit 0  request: T_REQ of a runner, T_RES of a tail

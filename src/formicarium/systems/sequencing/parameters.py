@@ -34,9 +34,9 @@ class ArenaTable(Table):
         le=0.12,
     )
     wall_friction: float = number(0.1, "1", "[model]", ge=0)
-    turn: float = number(0.0, "rad", "the whole arena is turned by this (for tests)")
-    shift_x: float = number(0.0, "m", "and shifted by this (for tests)")
-    shift_y: float = number(0.0, "m", "and this (for tests)")
+    turn: float = number(0.0, "rad", "the whole arena is turned by this (for tests)", ge=-100, le=100)
+    shift_x: float = number(0.0, "m", "and shifted by this (for tests)", ge=-1000, le=1000)
+    shift_y: float = number(0.0, "m", "and this (for tests)", ge=-1000, le=1000)
 
     @model_validator(mode="after")
     def booths_fit(self) -> "ArenaTable":
@@ -53,7 +53,7 @@ class SwarmTable(Table):
     time_cap: float = number(2400.0, "s", "TC, the trial ends here at the latest [paper, Table 1]", gt=0, le=1e6)
     sequences: int = number(10, "1", "the trial ends when so many are complete [paper]", ge=1, le=100_000)
     failure_rate: float = number(
-        0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0
+        0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0, le=10
     )
     deaths: tuple[tuple[int, float], ...] = number(
         (), "s", "robots that die, as [[number 1 to N, seconds], ...] [TS-149, U31]"
@@ -65,8 +65,8 @@ class SwarmTable(Table):
     def deaths_are_of_robots(self) -> "SwarmTable":
         """Let only robots die that there are, at times that exist."""
         for robot, seconds in self.deaths:
-            if not 1 <= robot <= self.robots or seconds < 0:
-                raise ValueError(f"deaths: [{robot}, {seconds}] is not [robot 1 to {self.robots}, seconds from 0]")
+            if not 1 <= robot <= self.robots or not 0 <= seconds <= 1e6:
+                raise ValueError(f"deaths: [{robot}, {seconds}] is not [robot 1 to {self.robots}, seconds 0 to 1e6]")
         return self
 
 
@@ -193,7 +193,7 @@ class BehaviourTable(Table):
 class PhysicsTable(Table):
     """The flat world's solver."""
 
-    cycle_time: float = number(0.1, "s", "control period [paper]", gt=0, le=1)
+    cycle_time: float = number(0.1, "s", "control period [paper]", ge=0.01, le=1)
     substeps: int = number(10, "1", "physics steps a cycle [model]", ge=1, le=100)
     iterations: int = number(10, "1", "of the contact solver [model]", ge=1, le=100)
 

@@ -20,6 +20,7 @@ def perceive(reading, memory, table, epuck):
     carry(memory.predecessor, memory.odometer)
     carry(memory.successor, memory.odometer)
     carry(memory.target, memory.odometer)
+    memory.sector = wrapped(memory.sector - memory.odometer.turn)
     for c in range(1, COLOURS):
         advert = memory.adverts[c]
         advert.bearing = wrapped(advert.bearing - memory.odometer.turn)

@@ -71,7 +71,7 @@ def begin(
         cycle_time=p.physics.cycle_time,
         substeps=p.physics.substeps,
         iterations=p.physics.iterations,
-        reach=p.epuck.radio_range + 0.01,
+        reach=max(p.epuck.radio_range, p.epuck.camera_range) + 0.01,
     )
     booths, lights = make_booths(arena, p, seed)
     clock = records(CLOCK, 1)

@@ -116,7 +116,7 @@ def open_branch(reading, memory, command, table, epuck):
     """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps."""
     cycle = reading.cycle
     move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
-    hear_requests(reading, memory, table, branch_direction(memory))
+    hear_requests(reading, memory, table)
     if memory.state == State.OPEN:
         if spot_guardian(reading, memory, table):
             memory.settled = cycle
@@ -164,7 +164,7 @@ def dock(reading, memory, command, table, epuck):
     if recruits_for_gap(memory, table):
         memory.settled = cycle
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
-        hear_requests(reading, memory, table, bearing_to(memory.successor))
+        hear_requests(reading, memory, table)
         return
     if not keep_in_line(memory.predecessor, memory.successor, command, table, table.dock_band, epuck.wheel_distance):
         memory.settled = cycle
@@ -207,7 +207,7 @@ def tail(reading, memory, command, table, epuck):
     cycle = reading.cycle
     command.colour = Colour.MAGENTA
     track_neighbours(reading, memory, table)
-    if memory.state != State.DOCK and relieved(reading, memory, table, branch_direction(memory)):
+    if memory.state != State.DOCK and relieved(reading, memory, table):
         become_link(memory, cycle)
     elif memory.state == State.POSITION:
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)

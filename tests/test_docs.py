@@ -1,0 +1,48 @@
+"""What the documents show exists, and what they tell a user to type works."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from formicarium.commands.main import main
+from formicarium.commands.run import run
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
+LINK = re.compile(r"\]\(([^)#]+?)\)")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_link_of_a_page_leads_somewhere(page):
+    links = [link for link in LINK.findall(page.read_text()) if "://" not in link]
+    missing = [link for link in links if not (page.parent / link).exists()]
+    assert not missing
+
+
+def shown_commands():
+    """Return every formicarium command of the README and of the help of run."""
+    texts = (ROOT / "README.md").read_text() + (run.__doc__ or "")
+    found = re.findall(r"^(?:python -m pip install \. && | {8})?(formicarium [^#\n]+)", texts, re.MULTILINE)
+    return sorted({line.strip() for line in found})
+
+
+def test_commands_are_shown():
+    assert len(shown_commands()) >= 8
+
+
+@pytest.mark.parametrize("line", shown_commands())
+def test_every_command_that_is_shown_works(line, tmp_path, monkeypatch):
+    """Made short: at most two runs of twenty simulated seconds."""
+    monkeypatch.chdir(tmp_path)
+    words = shlex.split(line)[1:]
+    if words[0] == "run":
+        if "--runs" in words:
+            words[words.index("--runs") + 1] = "2"
+        words += ["--set", "time_cap=20", "--workers", "1"]
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code in (0, None)
+    if words[0] == "run":
+        assert list(tmp_path.rglob("runs.parquet"))
