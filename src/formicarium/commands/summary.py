@@ -10,6 +10,7 @@ from rich.table import Table
 from formicarium.campaigns.runner import SetReport
 from formicarium.campaigns.store import Store
 from formicarium.campaigns.table import Row
+from formicarium.statistics.compare import log_rank
 from formicarium.statistics.intervals import wilson
 from formicarium.statistics.runtimes import RunTimes, in_words, run_times
 from formicarium.systems.registry import System
@@ -41,6 +42,19 @@ def published(system: System) -> dict[str, RunTimes]:
     }
 
 
+def against_published(system: System, rows: Sequence[Row]) -> dict[str, float]:
+    """Return, by label, the p-value of the log-rank test of our run times against the published ones."""
+    targets = system.targets
+    ends = [_number(row.get(END)) or targets.published_cap for row in rows]
+    return {
+        targets.columns[column]: log_rank(
+            [_number(row.get(column)) for row in rows], ends, times, [targets.published_cap] * len(times)
+        ).p_value
+        for column, times in targets.published.items()
+        if column in targets.columns and times
+    }
+
+
 def print_summary(
     console: Console,
     system: System,
@@ -64,26 +78,29 @@ def print_summary(
         console.print(_one_run(system, rows[0]) if len(seeds) == 1 else _targets(system, rows))
         _print_causes(console, rows)
         if system.targets.published:
-            console.print(f"published {system.targets.published_label}", highlight=False, soft_wrap=True)
+            console.print(f"published medians: {system.targets.published_label}", highlight=False, soft_wrap=True)
+            if len(rows) > 1:
+                console.print("p: log-rank test of our run times against the published ones", highlight=False)
     console.print(f"results   {folder}", highlight=False, soft_wrap=True)
     for path in pictures:
         console.print(f"          {path}", highlight=False, soft_wrap=True)
 
 
 def _targets(system: System, rows: Sequence[Row]) -> Table:
-    table = _table("target", "reached", "share", "95 % interval", "median", "published median")
-    paper = published(system)
+    table = _table("target", "reached", "share", "95 % interval", "median", "published", "p")
+    paper, p_values = published(system), against_published(system, rows)
     for label, times in measured(system, rows).items():
         share = wilson(times.reached, times.runs)
         theirs = in_words(paper[label].median) if label in paper else ""
         interval = f"{share.low:.0%} to {share.high:.0%}"
         reached = f"{times.reached} of {times.runs}"
-        table.add_row(label, reached, f"{share.value:.0%}", interval, in_words(times.median), theirs)
+        p_value = f"{p_values[label]:.2g}" if label in p_values else ""
+        table.add_row(label, reached, f"{share.value:.0%}", interval, in_words(times.median), theirs, p_value)
     return table
 
 
 def _one_run(system: System, row: Row) -> Table:
-    table = _table("target", "time", "published median")
+    table = _table("target", "time", "published")
     paper = published(system)
     for label, times in measured(system, [row]).items():
         table.add_row(label, in_words(times.median), in_words(paper[label].median) if label in paper else "")
@@ -91,7 +108,7 @@ def _one_run(system: System, row: Row) -> Table:
 
 
 def _table(*titles: str) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0))
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for title in titles:
         table.add_column(title, justify="left" if title == "target" else "right")
     return table
