@@ -155,8 +155,12 @@ def test_the_first_guardian_gives_up_the_tail_and_is_in_the_chain():
     assert robot.command.colour == Colour.CYAN and robot.message().tail == 0 and robot.message().in_chain == 1
 
 
-def recover(seed: int, at_guardian: bool, loss: float = 0.3) -> tuple[float, float]:
-    """Let a runner join under packet loss: (seconds with two tails, seconds without any) until 5 s after."""
+def recover(seed: int, at_guardian: bool, loss: float = 0.3) -> tuple[float, float, bool]:
+    """Let a runner join under packet loss: (seconds with two tails, without any, whether it joined in 15 s).
+
+    A runner whose requests are lost goes on its way and refuses for a while (TS-82): then it has not joined, and
+    the old tail must still be the only one.
+    """
     state = wide_stage(4, seed, epuck={"radio_loss": loss})
     spacing = float(state.behaviour[0].spacing)
     if at_guardian:
@@ -181,14 +185,14 @@ def recover(seed: int, at_guardian: bool, loss: float = 0.3) -> tuple[float, flo
         if state.memories[runner].role == Role.TAIL:
             break
     step(state, 50, None, count)
-    assert state.memories[runner].role == Role.TAIL
-    return 0.1 * two, 0.1 * none
+    return 0.1 * two, 0.1 * none, bool(state.memories[runner].role == Role.TAIL)
 
 
 def check_recoveries(seeds) -> None:
     outcomes = [recover(seed, seed % 2 == 0) for seed in seeds]
-    assert max(two for two, _ in outcomes) <= 5.0
-    assert max(none for _, none in outcomes) == 0.0
+    assert max(two for two, _, _ in outcomes) <= 5.0
+    assert max(none for _, none, _ in outcomes) == 0.0
+    assert sum(joined for _, _, joined in outcomes) >= 0.98 * len(outcomes)
 
 
 def test_under_30_percent_packet_loss_there_is_always_one_tail_and_never_two_for_long():
