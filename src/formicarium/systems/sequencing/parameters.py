@@ -180,7 +180,10 @@ class BehaviourTable(Table):
         "by which the branch turns before it pauses: a short one is not to overshoot [choice, for U13]",
         gt=0,
     )
-    sweep_pause: int = number(50, "cycles", "U13", ge=0)
+    sweep_burst: int = number(
+        15, "cycles", "but no longer than this, or the tip of a long branch curls up [tuned, U13]", ge=1
+    )
+    sweep_pause: int = number(40, "cycles", "U13", ge=0)
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
     dock_gaps: float = number(0.40, "m", "if both gaps add up to more, recruit one more U21", gt=0)

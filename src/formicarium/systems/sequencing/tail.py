@@ -127,9 +127,13 @@ def open_branch(reading, memory, command, table, epuck):
 
 @compiled
 def burst(memory, table):
-    """Return how long to sweep, cycles: until the branch, link_number * spacing long, has turned by one step."""
+    """Return how long to sweep, cycles: until the branch, link_number * spacing long, has turned by one step.
+
+    The tip of a long branch pauses earlier: the links behind it must keep up.
+    """
     length = memory.link_number * table.spacing
-    return max(1, int(table.sweep_angle * length / table.sweep_speed / CYCLE_TIME))
+    turning = int(table.sweep_angle * length / table.sweep_speed / CYCLE_TIME)
+    return min(table.sweep_burst, max(1, turning))
 
 
 @compiled
