@@ -62,7 +62,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     Floating point is strict (no fused or re-ordered arithmetic), so compiled and interpreted runs agree to
     the last bit as long as the function avoids ``math.hypot``. Compiled functions own no memory: they work on
     arrays handed to them and may not make new ones, which saves counting references to every array of a state
-    at every call (a quarter of the time of a step, see docs/why.md).
+    at every call (measured in docs/why.md).
     """
     if INTERPRETED:
         return function
