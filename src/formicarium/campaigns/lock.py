@@ -1,7 +1,10 @@
-"""One writer a folder: a lock that the operating system releases when its holder ends, however it ends."""
+"""Locks that the operating system releases when their holder ends, however it ends."""
 
 import os
 import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
@@ -16,30 +19,70 @@ def acquire(folder: Path) -> IO[str]:
     Raises:
         StoreError: if another process holds the lock, or the folder cannot be written.
     """
-    path = folder / NAME
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        file = path.open("a+", encoding="utf-8")
-    except OSError as error:
-        raise unwritable(folder, error) from error
-    try:
-        _lock(file)
-    except OSError as error:
-        file.close()
+    file = try_acquire(folder / NAME)
+    if file is None:
         raise StoreError(
             f"{folder} is in use: another process is writing to it. Wait for it to end, or choose another folder."
-        ) from error
+        )
     return file
+
+
+def try_acquire(path: Path) -> IO[str] | None:
+    """Lock a file, made if it is not there, and return it open; None if another process holds the lock.
+
+    Raises:
+        StoreError: if the file cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        file = path.open("a+", encoding="utf-8")
+    except OSError as error:
+        raise unwritable(path.parent, error) from error
+    try:
+        _lock(file, wait=False)
+    except OSError:
+        file.close()
+        return None
+    return file
+
+
+@contextmanager
+def held(path: Path) -> Iterator[None]:
+    """Hold the lock of a file during the block; wait for it as long as it takes.
+
+    Raises:
+        StoreError: if the file cannot be written, or its file system has no locks.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        file = path.open("a+", encoding="utf-8")
+    except OSError as error:
+        raise unwritable(path.parent, error) from error
+    with file:
+        try:
+            _lock(file, wait=True)
+        except OSError as error:
+            raise StoreError(
+                f"cannot lock {path}: {error.strerror or error}. The file system of this folder must have locks."
+            ) from error
+        yield
 
 
 if sys.platform == "win32":
     import msvcrt
 
-    def _lock(file: IO[str]) -> None:
-        os.lseek(file.fileno(), 0, os.SEEK_SET)
-        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+    def _lock(file: IO[str], wait: bool) -> None:
+        while True:
+            os.lseek(file.fileno(), 0, os.SEEK_SET)
+            try:
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+                return
+            except OSError:
+                if not wait:
+                    raise
+                time.sleep(0.02)
 else:
     import fcntl
 
-    def _lock(file: IO[str]) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    def _lock(file: IO[str], wait: bool) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))

@@ -1,6 +1,7 @@
 """What one run gives: a row, and tables of its own."""
 
 from collections.abc import Callable, Mapping
+from enum import StrEnum
 from typing import NamedTuple
 
 import pyarrow as pa
@@ -18,14 +19,25 @@ class Result(NamedTuple):
     tables: Mapping[str, pa.Table]  # name -> table, kept as <name>/seed-<seed>.parquet
 
 
+class Ending(StrEnum):
+    """How a run ended."""
+
+    DONE = "done"
+    FAILED = "failed"  # the function raised
+    DIED = "died"  # its process ended before it was done
+    LATE = "late"  # it took longer than the time limit
+
+
 class Finished(NamedTuple):
     """A run that has ended, well or badly."""
 
     seed: int
-    result: Result | None  # None if the run failed
+    result: Result | None  # None unless it went well
     failure: str  # traceback or reason, empty if it went well
     seconds: float  # wall-clock time
-    worker: int  # number of the worker that did it
+    worker: int | str  # number or name of the worker that did it
+    ending: Ending = Ending.DONE
+    identity: str = ""  # of the configuration, where there are several
 
 
 # A function to be repeated: seed and watch -> result. Importable by name, so that other processes find it.

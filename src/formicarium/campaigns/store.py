@@ -84,7 +84,7 @@ class Store:
         Returns the run as it was kept.
         """
         seed, result = finished.seed, finished.result
-        if result is not None and seed in self.rows and not _same({"seed": seed, **result.row}, self.rows[seed]):
+        if result is not None and seed in self.rows and not table.same({"seed": seed, **result.row}, self.rows[seed]):
             reason = f"seed {seed} was run again and gave another row than the one stored: it does not repeat"
             finished, result = finished._replace(result=None, failure=reason), None
         if result is None:
@@ -145,9 +145,3 @@ class Store:
     def _write_rows(self, name: str, rows: dict[int, Row]) -> dict[int, Row]:
         table.write(self._signed(table.from_rows(rows[seed] for seed in sorted(rows))), self.folder / name)
         return rows
-
-
-def _same(row: Row, stored: Row) -> bool:
-    """Tell whether two rows are equal, an absent value being None, and NaN equal to NaN."""
-    pairs = [(row.get(name), stored.get(name)) for name in {*row, *stored}]
-    return all(one == other or (one != one and other != other) for one, other in pairs)

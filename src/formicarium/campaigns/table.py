@@ -55,3 +55,9 @@ def read(path: Path) -> pa.Table:
             f"{path} is damaged ({reason}). Move it away, then run the same command again: "
             "the runs it held are repeated, the others are kept."
         ) from error
+
+
+def same(row: Row, stored: Row) -> bool:
+    """Tell whether two rows are equal, an absent value being None, and NaN equal to NaN."""
+    pairs = [(row.get(name), stored.get(name)) for name in {*row, *stored}]
+    return all(one == other or (one != one and other != other) for one, other in pairs)

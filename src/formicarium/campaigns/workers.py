@@ -1,4 +1,4 @@
-"""Run a function for many seeds, in this process or in several others, and hand back what each gave."""
+"""Worker processes: each takes runs one after the other, and whatever becomes of it is reported."""
 
 import pickle
 import signal
@@ -6,10 +6,182 @@ import time
 import traceback
 from collections.abc import Iterator, Sequence
 from multiprocessing import connection, get_context
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from formicarium.campaigns.interruption import hidden_from_children
-from formicarium.campaigns.result import Finished, Function, Watch
+from formicarium.campaigns.errors import Futile
+from formicarium.campaigns.interruption import held_back, hidden_from_children
+from formicarium.campaigns.result import Ending, Finished, Function, Watch
+
+
+class Task(NamedTuple):
+    """One run to be done."""
+
+    function: bytes  # pickled Function
+    seed: int
+    identity: str = ""  # of the configuration, where there are several
+
+
+class Crew(Protocol):
+    """Workers that take runs and hand back what became of each."""
+
+    @property
+    def capacity(self) -> int:
+        """How many runs can be under way at once."""
+
+    @property
+    def busy(self) -> int:
+        """How many are under way."""
+
+    def start(self, task: Task) -> None:
+        """Begin a run; at most ``capacity`` may be under way."""
+
+    def finished(self, seconds: float | None) -> list[Finished]:
+        """Wait until a run has ended, or for so many seconds, and return what has ended."""
+
+    def close(self) -> None:
+        """End all workers, whatever they are doing."""
+
+
+def attempt(task: Task, worker: int | str, watch: Watch | None = None) -> Finished:
+    """Do a run in this process.
+
+    Raises:
+        Futile: if the function says that no run can succeed.
+    """
+    started = time.perf_counter()
+    try:
+        function: Function = pickle.loads(task.function)
+        result, failure, ending = function(task.seed, watch), "", Ending.DONE
+    except Futile:
+        raise
+    except Exception:
+        result, failure, ending = None, traceback.format_exc(), Ending.FAILED
+    return Finished(task.seed, result, failure, time.perf_counter() - started, worker, ending, task.identity)
+
+
+def serve(pipe: Any, number: int) -> None:
+    """Be a worker: take tasks from the pipe and answer each with a Finished, until the pipe closes.
+
+    A parent that dies closes the pipe, so no worker outlives its parent by more than the run at hand.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        while (task := pipe.recv()) is not None:
+            try:
+                pipe.send(attempt(task, number))
+            except Futile as reason:
+                pipe.send(reason)
+    except (EOFError, OSError):
+        return
+
+
+class _Worker(NamedTuple):
+    process: Any
+    number: int
+    task: Task  # the run it is busy with, or was
+    started: float  # time.monotonic() of its start
+
+
+class Processes:
+    """A crew of processes on this machine. A worker lives for many runs; a new one takes the place of a dead one."""
+
+    def __init__(self, capacity: int, time_limit: float | None = None):
+        """Prepare; processes start with the first runs.
+
+        Args:
+            capacity: number of processes.
+            time_limit: wall-clock seconds after which a run is ended, with its process.
+        """
+        self.capacity = capacity
+        self.time_limit = time_limit
+        self._working: dict[Any, _Worker] = {}
+        self._idle: dict[Any, _Worker] = {}
+        self._ended: list[Finished] = []
+
+    @property
+    def busy(self) -> int:
+        """How many runs are under way."""
+        return len(self._working)
+
+    def start(self, task: Task) -> None:
+        """Begin a run on a worker that is idle, or on a new one."""
+        while self._idle:
+            pipe, worker = self._idle.popitem()
+            try:
+                pipe.send(task)
+            except OSError:  # it died, perhaps after its last answer: another takes its place
+                pipe.close()
+                continue
+            self._working[pipe] = worker._replace(task=task, started=time.monotonic())
+            return
+        taken = {worker.number for worker in self._working.values()}
+        number = next(k for k in range(self.capacity + 1) if k not in taken)
+        # "spawn": compiled code and its threads do not survive a fork.
+        context = get_context("spawn")
+        ours, theirs = context.Pipe()
+        process = context.Process(target=serve, args=(theirs, number), daemon=True)
+        with hidden_from_children():
+            process.start()
+        theirs.close()  # so that the end of the worker is the end of the pipe
+        self._working[ours] = _Worker(process, number, task, time.monotonic())
+        ours.send(task)
+
+    def finished(self, seconds: float | None) -> list[Finished]:
+        """Wait until a run has ended, or for so many seconds, and return what has ended.
+
+        Raises:
+            Futile: if a function said that no run can succeed.
+        """
+        if self.time_limit is not None and self._working:
+            first = min(worker.started for worker in self._working.values()) + self.time_limit
+            left = max(first - time.monotonic(), 0.0)
+            seconds = left if seconds is None else min(seconds, left)
+        ready = connection.wait(list(self._working), seconds)
+        with held_back():  # half an answer would be none; a Ctrl-C leaves what has arrived for the next call
+            for pipe in ready:
+                self._ended.append(self._receive(pipe))
+            self._ended += self._late()
+        ended, self._ended = self._ended, []
+        return ended
+
+    def close(self) -> None:
+        """End all workers, whatever they are doing."""
+        for worker in [*self._working.values(), *self._idle.values()]:
+            worker.process.kill()
+        for pipe, worker in [*self._working.items(), *self._idle.items()]:
+            worker.process.join()
+            pipe.close()
+        self._working, self._idle = {}, {}
+
+    def _receive(self, pipe: Any) -> Finished:
+        worker = self._working.pop(pipe)
+        try:
+            answer = pipe.recv()
+        except (EOFError, OSError):
+            worker.process.join()
+            pipe.close()
+            reason = f"the process of this run ended with exit code {worker.process.exitcode} before it was done"
+            return _unfinished(worker, reason, Ending.DIED)
+        self._idle[pipe] = worker
+        if isinstance(answer, Futile):
+            raise answer
+        return answer
+
+    def _late(self) -> list[Finished]:
+        now, late = time.monotonic(), []
+        for pipe, worker in list(self._working.items()):
+            if self.time_limit is not None and now - worker.started >= self.time_limit:
+                del self._working[pipe]
+                worker.process.kill()
+                worker.process.join()
+                pipe.close()
+                late.append(_unfinished(worker, f"took longer than {self.time_limit:g} s: ended", Ending.LATE))
+        return late
+
+
+def _unfinished(worker: _Worker, reason: str, ending: Ending) -> Finished:
+    seconds = time.monotonic() - worker.started
+    return Finished(worker.task.seed, None, reason, seconds, worker.number, ending, worker.task.identity)
 
 
 def finished_runs(
@@ -20,97 +192,21 @@ def finished_runs(
     A run that raises, or whose process dies, is yielded as a failure and the others go on. On Ctrl-C what has
     already arrived is yielded, the workers are ended and KeyboardInterrupt goes on to the caller.
     """
-    workers = min(workers, len(seeds))
+    tasks = [Task(pickle.dumps(function), seed) for seed in seeds]
+    workers = min(workers, len(tasks))
     if workers <= 1:
-        for seed in seeds:
-            yield _attempt(function, seed, 0, watch)
-    else:
-        yield from _in_processes(pickle.dumps(function), list(seeds), workers)
-
-
-def _attempt(function: Function, seed: int, number: int, watch: Watch | None) -> Finished:
-    started = time.perf_counter()
-    try:
-        result, failure = function(seed, watch), ""
-    except Exception:
-        result, failure = None, traceback.format_exc()
-    return Finished(seed, result, failure, time.perf_counter() - started, number)
-
-
-def serve(pipe: Any, function: bytes, number: int) -> None:
-    """Be a worker: take seeds from the pipe and answer each with a Finished, until the pipe closes.
-
-    A parent that dies closes the pipe, so no worker outlives its parent by more than the run at hand.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    def unpacked(seed: int, watch: Watch | None) -> Any:
-        return pickle.loads(function)(seed, watch)
-
-    try:
-        while (seed := pipe.recv()) is not None:
-            pipe.send(_attempt(unpacked, seed, number, None))
-    except (EOFError, OSError):
+        for task in tasks:
+            yield attempt(task, 0, watch)
         return
-
-
-class _Worker(NamedTuple):
-    process: Any
-    seed: int  # the run it is busy with
-    number: int
-
-
-def _start(function: bytes, number: int, seed: int) -> tuple[Any, _Worker]:
-    # "spawn": compiled code and its threads do not survive a fork.
-    context = get_context("spawn")
-    ours, theirs = context.Pipe()
-    process = context.Process(target=serve, args=(theirs, function, number), daemon=True)
-    with hidden_from_children():
-        process.start()
-    theirs.close()  # so that the end of the worker is the end of the pipe
-    ours.send(seed)
-    return ours, _Worker(process, seed, number)
-
-
-def _next(function: bytes, pipe: Any, worker: _Worker, seed: int) -> tuple[Any, _Worker]:
+    crew = Processes(workers)
+    waiting = tasks[::-1]
     try:
-        pipe.send(seed)
-    except OSError:  # it died, perhaps after its last answer: another takes its place
-        pipe.close()
-        return _start(function, worker.number, seed)
-    return pipe, worker._replace(seed=seed)
-
-
-def _in_processes(function: bytes, seeds: list[int], workers: int) -> Iterator[Finished]:
-    waiting = seeds[::-1]
-    crew: dict[Any, _Worker] = {}
-    pipe: Any
-    try:
-        for number in range(workers):
-            pipe, worker = _start(function, number, waiting.pop())
-            crew[pipe] = worker
-        while crew:
-            for pipe in list(connection.wait(list(crew))):
-                worker = crew.pop(pipe)
-                finished = _receive(pipe, worker)
-                if waiting:
-                    pipe, worker = _next(function, pipe, worker, waiting.pop())
-                    crew[pipe] = worker
-                else:
-                    pipe.close()
-                yield finished
+        while waiting or crew.busy:
+            while waiting and crew.busy < workers:
+                crew.start(waiting.pop())
+            yield from crew.finished(None)
     except KeyboardInterrupt:
-        yield from [_receive(pipe, worker) for pipe, worker in crew.items() if pipe.poll()]
+        yield from crew.finished(0.0)
         raise
     finally:
-        for worker in crew.values():
-            worker.process.kill()
-
-
-def _receive(pipe: Any, worker: _Worker) -> Finished:
-    try:
-        return pipe.recv()
-    except (EOFError, OSError):
-        worker.process.join()
-        reason = f"the process of this run ended with exit code {worker.process.exitcode} before it was done"
-        return Finished(worker.seed, None, reason, 0.0, worker.number)
+        crew.close()

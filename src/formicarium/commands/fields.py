@@ -1,7 +1,7 @@
 """Parameters by name: every field of the nested groups, and ``--set name=value`` for any of them."""
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
@@ -63,17 +63,39 @@ def with_settings(parameters: BaseModel, settings: Iterable[str]) -> BaseModel:
     Raises:
         UserError: if a name is unknown or ambiguous, or a value not allowed.
     """
-    content = parameters.model_dump()
+    values = {}
     for setting in settings:
-        name, equals, text = setting.partition("=")
-        if not equals:
-            raise UserError(f"--set {setting}: expected name=value, for example --set {name}=1")
-        field = _find(type(parameters), name.strip())
-        *groups, last = field.path.split(".")
+        name, text = parted(setting)
+        field = find_field(type(parameters), name, f"--set {name}")
+        values[field.path] = value_of_text(field, text)
+    return with_values(parameters, values)
+
+
+def parted(setting: str) -> tuple[str, str]:
+    """Take "name=value" apart.
+
+    Raises:
+        UserError: if there is no "=".
+    """
+    name, equals, text = setting.partition("=")
+    if not equals:
+        raise UserError(f"--set {setting}: expected name=value, for example --set {name}=1")
+    return name.strip(), text.strip()
+
+
+def with_values(parameters: BaseModel, values: Mapping[str, Any]) -> BaseModel:
+    """Return the parameters with these values, given by dotted path, and checked as a whole.
+
+    Raises:
+        UserError: if they do not go together.
+    """
+    content = parameters.model_dump()
+    for path, value in values.items():
+        *groups, last = path.split(".")
         place = content
         for group in groups:
             place = place[group]
-        place[last] = _value(field, text.strip())
+        place[last] = value
     try:
         return type(parameters).model_validate(content)
     except ValidationError as error:
@@ -90,24 +112,48 @@ def in_words(error: ValidationError) -> str:
     return "; ".join(lines)
 
 
-def _find(model: type[BaseModel], name: str) -> NamedField:
+def find_field(model: type[BaseModel], name: str, said: str) -> NamedField:
+    """Return the field of this dotted or bare name.
+
+    Args:
+        model: whose fields to look through.
+        name: of the field.
+        said: where the name comes from, for messages ("--set spacing").
+
+    Raises:
+        UserError: if no field has the name, or several do.
+    """
     known = list(fields(model))
     exact = [field for field in known if field.path == name]
     matches = exact or [field for field in known if field.name == name]
     if len(matches) == 1:
         return matches[0]
     if matches:
-        raise UserError(f"--set {name}: ambiguous, say which: {', '.join(field.path for field in matches)}")
+        raise UserError(f"{said}: ambiguous, say which: {', '.join(field.path for field in matches)}")
     names = [field.path for field in known] + [field.name for field in known]
     close = near(name, dict.fromkeys(names))
-    raise UserError(f"--set {name}: no parameter has that name.{close} List them with: formicarium describe SYSTEM")
+    raise UserError(f"{said}: no parameter has that name.{close} List them with: formicarium describe SYSTEM")
 
 
-def _value(field: NamedField, text: str) -> Any:
-    """Read a value as plain text, as JSON ("[1, 2]", "null") or as a list without brackets ("1,2")."""
-    bounded: Any = Annotated[field.info.annotation, field.info]
-    adapter: TypeAdapter[Any] = TypeAdapter(bounded)
-    problem = None
+def typed_value(field: NamedField, value: Any, said: str) -> Any:
+    """Check a value that has a type already, as in a file: a text is no number, true is no 1.
+
+    Raises:
+        UserError: if it is not allowed.
+    """
+    try:
+        return _adapter(field).validate_json(json.dumps(value), strict=True)
+    except ValidationError as error:
+        raise _refused(field, f"{said} = {json.dumps(value)}", error) from error
+
+
+def value_of_text(field: NamedField, text: str) -> Any:
+    """Read a value as plain text, as JSON ("[1, 2]", "null") or as a list without brackets ("1,2").
+
+    Raises:
+        UserError: if it is not allowed.
+    """
+    adapter, problem = _adapter(field), None
     for read in (str, json.loads, lambda text: json.loads(f"[{text}]")):
         try:
             return adapter.validate_python(read(text))
@@ -116,6 +162,14 @@ def _value(field: NamedField, text: str) -> Any:
         except ValueError:
             continue
     assert problem is not None  # reading as plain text cannot fail otherwise
+    raise _refused(field, f"--set {field.path}={text}", problem)
+
+
+def _adapter(field: NamedField) -> TypeAdapter[Any]:
+    bounded: Any = Annotated[field.info.annotation, field.info]
+    return TypeAdapter(bounded)
+
+
+def _refused(field: NamedField, said: str, error: ValidationError) -> UserError:
     allowed = f"; allowed: {field.allowed}" + (f" {field.unit}" if field.unit not in ("", "1") else "")
-    reason = problem.errors()[0]["msg"]
-    raise UserError(f"--set {field.path}={text}: {reason}{allowed if field.allowed else ''}")
+    return UserError(f"{said}: {error.errors()[0]['msg']}{allowed if field.allowed else ''}")

@@ -13,7 +13,9 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from formicarium import __version__
+from formicarium.campaigns.errors import DesignError, Futile
 from formicarium.campaigns.files import StoreError
+from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
 from formicarium.commands.errors import UserError
 from formicarium.commands.run import run
@@ -27,6 +29,7 @@ Start here:
     formicarium run mark-i3                 one run, with pictures
     formicarium run mark-i3 --runs 30       thirty runs on all cores
     formicarium describe mark-i3            every number --set can change
+    formicarium campaign --help             studies of many settings and many runs
 """
 
 app = App(
@@ -40,6 +43,7 @@ app = App(
 app.command(run)
 app.command(systems)
 app.command(describe)
+app.command(campaign)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -55,8 +59,10 @@ def exit_code(arguments: Sequence[str]) -> int:
     except CycloptsError as error:
         command = " ".join(["formicarium", *arguments[:1]]) if arguments[:1] != ["--help"] else "formicarium"
         return _say(f"{_plain(error)} See: {command} --help", 2)
-    except (UserError, StoreError) as error:
+    except (UserError, DesignError, StoreError) as error:
         return _say(str(error), 2)
+    except Futile as error:
+        return _say(str(error), 1)
     except KeyboardInterrupt as interruption:
         return _say(str(interruption) or "interrupted", 130)
     except Exception as error:

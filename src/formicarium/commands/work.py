@@ -11,11 +11,14 @@ from pydantic_core import from_json, to_json
 
 from formicarium import __version__
 from formicarium.campaigns.configuration import Configuration
+from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.result import Function, Result, Watch
 from formicarium.commands.tables import result_of
 from formicarium.compiled import PACKAGE, source_hash
 from formicarium.systems.registry import System, resolve
 from formicarium.trial.record import Trial
+
+FRAMES_EVERY = 2.0  # seconds between two frames, if a campaign keeps them
 
 
 def run_trial(
@@ -26,7 +29,7 @@ def run_trial(
     return found.run(found.parameters.model_validate_json(parameters), seed, frames_every=frames_every, watch=watch)
 
 
-class ChangedSources(RuntimeError):
+class ChangedSources(Futile):
     """A worker found other sources than those that the identity of the results stands for."""
 
 
@@ -40,6 +43,19 @@ def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, flo
         sources: hash of the sources that results are kept under; a worker that imports others refuses to run.
     """
     return partial(_perform, name, as_json(parameters), dict(frames_every), sources)
+
+
+def row_function(name: str, parameters: BaseModel, sources: str, keep: tuple[str, ...] = ()) -> Function:
+    """Return the function that a cell of a campaign repeats: it gives the row, and only the tables in ``keep``."""
+    return partial(_perform_kept, name, as_json(parameters), sources, keep)
+
+
+def _perform_kept(
+    system: str, parameters: bytes, sources: str, keep: tuple[str, ...], seed: int, watch: Watch | None
+) -> Result:
+    every = {seed: FRAMES_EVERY} if "frames" in keep else {}
+    result = _perform(system, parameters, every, sources, seed, watch)
+    return result._replace(tables={name: result.tables[name] for name in keep})
 
 
 def _perform(

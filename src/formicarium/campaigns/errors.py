@@ -1,0 +1,9 @@
+"""What can go wrong with a campaign as a whole. Light to import: the command line catches these."""
+
+
+class DesignError(Exception):
+    """A design cannot be run as it is; the message names the file, the key and the value."""
+
+
+class Futile(Exception):
+    """Raised by a function when no further run can succeed: the campaign stops instead of failing run by run."""

@@ -1,0 +1,40 @@
+"""Seeds: as listed, counted on from a first one, or derived from study, cell and replicate."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from formicarium.campaigns.design import Design
+
+BITS = 53  # whole numbers of this size survive every reader of tables, also those that know only fractions
+
+
+def seeds_of(design: Design, factors: Mapping[str, Any], first_seed: int | None) -> tuple[int, ...]:
+    """Return the seeds of a cell, one a replicate. More replicates add seeds and change none.
+
+    Args:
+        design: of the study.
+        factors: of the cell; derived seeds depend on them, not on the place of the cell in the table.
+        first_seed: of this row, if it has one of its own.
+    """
+    if design.seeds is not None and first_seed is None:
+        return tuple(design.seeds[: design.count])
+    first = design.first_seed if first_seed is None else first_seed
+    if first is not None:
+        return tuple(range(first, first + design.count))
+    return tuple(derived_seed(design.name, factors, replicate) for replicate in range(design.count))
+
+
+def derived_seed(study: str, factors: Mapping[str, Any], replicate: int) -> int:
+    """Return a seed that looks random and is always the same: 0 to 2^53 - 1."""
+    plain = {name: _plain(value) for name, value in factors.items()}
+    text = json.dumps([study, plain, replicate], sort_keys=True)
+    return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=8).digest()) >> (64 - BITS)
+
+
+def _plain(value: Any) -> Any:
+    # 1 and 1.0 are one value of a factor: TOML and YAML files may write either.
+    if isinstance(value, list):
+        return [_plain(inner) for inner in value]
+    return int(value) if isinstance(value, float) and value.is_integer() else value

@@ -1,0 +1,121 @@
+"""What ``formicarium campaign run`` does: open the ledger, run what is missing, say what came of it."""
+
+import math
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+from rich.console import Console
+
+from formicarium.campaigns.coordinator import Report, Standing, run_campaign
+from formicarium.campaigns.ledger import Ledger
+from formicarium.campaigns.provenance import session
+from formicarium.campaigns.workers import Crew, Processes
+from formicarium.campaigns.writer import Writer
+from formicarium.commands.campaign.progress import CampaignProgress
+from formicarium.commands.campaign.study import Study
+from formicarium.commands.errors import UserError
+from formicarium.commands.session import LIBRARIES
+from formicarium.compiled import PACKAGE
+
+SHOWN_FAILURES = 3
+
+
+class Request(NamedTuple):
+    """How a person wants it run; see ``run`` for the meaning."""
+
+    workers: int | None = None
+    time_limit: float | None = None
+    retry: bool = False
+
+
+def perform(study: Study, request: Request) -> int:
+    """Run what the campaign lacks and return the exit code: 0 if every run is done, 1 if some failed.
+
+    Raises:
+        UserError: if the request makes no sense.
+        StoreError: if the folder cannot be used.
+        KeyboardInterrupt: on Ctrl-C or a request to end, with a message that says how to go on.
+    """
+    _check(request)
+    ledger = Ledger(study.folder)
+    with terminable(), Writer(ledger, study.manifest, study.jobs) as writer:
+        forgotten = writer.forget_failures(key for job in study.jobs for key in job.keys) if request.retry else 0
+        writer.note_session({**session(sys.argv, PACKAGE, LIBRARIES), "retried": forgotten})
+        trouble = Console(stderr=True)
+        latest: list[Standing] = []
+        with CampaignProgress(trouble, study.design.name) as progress:
+
+            def told(standing: Standing) -> None:
+                latest[:] = [standing]
+                progress.show(standing)
+
+            try:
+                report = run_campaign(study.jobs, writer, _crew(study, request), keep=study.design.keep, progress=told)
+            except KeyboardInterrupt:
+                raise KeyboardInterrupt(_interrupted(study, ledger)) from None
+        _print(study, report)
+        return 1 if report.standing.failed else 0
+
+
+def _check(request: Request) -> None:
+    if request.workers is not None and request.workers < 1:
+        raise UserError(f"--workers {request.workers}: must be at least 1")
+    if request.time_limit is not None and not (math.isfinite(request.time_limit) and request.time_limit > 0):
+        raise UserError(f"--time-limit {request.time_limit:g}: must be a time in seconds above 0")
+
+
+def _crew(study: Study, request: Request) -> Crew:
+    return Processes(request.workers or os.cpu_count() or 1, request.time_limit or study.design.time_limit)
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """Take a request to end (SIGTERM, as batch systems send it) like Ctrl-C."""
+
+    def stop(*_: Any) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are delivered to the main thread only
+        return
+    previous = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, previous)
+
+
+def _interrupted(study: Study, ledger: Ledger) -> str:
+    total = sum(len(job.keys) for job in study.jobs)
+    done = sum(ledger.has(key) for job in study.jobs for key in job.keys)
+    return f"interrupted: {done} of {total} runs are done and kept in {study.folder}. The same command continues."
+
+
+def _print(study: Study, report: Report) -> None:
+    screen, trouble = Console(), Console(stderr=True)
+    standing = report.standing
+    loaded = f", {report.loaded} of them loaded" if report.loaded else ""
+    failed = f", {standing.failed} failed" if standing.failed else ""
+    screen.print(
+        f"[bold]{study.design.name}[/bold]: {standing.done} of {standing.total} runs done{loaded}{failed}; "
+        f"{standing.produced} now, in {standing.seconds:,.0f} s",
+        highlight=False,
+    )
+    screen.print(f"results   {study.folder}", highlight=False, soft_wrap=True)
+    screen.print(f"next      formicarium campaign collect {study.source}", highlight=False, soft_wrap=True)
+    for note in report.notes:
+        trouble.print(f"formicarium: {note}", highlight=False, soft_wrap=True, markup=False)
+    for run in report.failures[:SHOWN_FAILURES]:
+        said = f"\nformicarium: the run with seed {run.seed} {run.ending}:\n{run.failure.rstrip()}"
+        trouble.print(said, highlight=False, soft_wrap=True, markup=False)
+    if standing.failed:
+        trouble.print(
+            f"\nformicarium: {standing.failed} run{'s' * (standing.failed > 1)} failed; tracebacks in "
+            f"{study.folder / 'failures'}. Try them again with --retry.",
+            highlight=False, soft_wrap=True, markup=False,
+        )  # fmt: skip

@@ -1,0 +1,152 @@
+"""``formicarium campaign``: plan, run, status, collect, on a system without a simulator."""
+
+import json
+
+import pyarrow.csv
+import pyarrow.parquet as pq
+import pytest
+
+from formicarium.commands.main import exit_code
+
+WALK = "random_walk:RANDOM_WALK"
+DESIGN = f"""
+name = "walk"
+system = "{WALK}"
+replicates = 3
+
+[factors]
+robots = [5, 9]
+"booth.dwell_time" = [1, 2.5]
+"""
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "160")
+    (tmp_path / "study.toml").write_text(DESIGN)
+    return tmp_path
+
+
+def campaign(verb, *arguments):
+    return exit_code(["campaign", verb, "study.toml", "--out", "here", *map(str, arguments)])
+
+
+def rows(folder="here"):
+    return pq.read_table(f"{folder}/runs.parquet").to_pylist()
+
+
+def test_a_campaign_from_plan_to_table(tmp_path, capsys):
+    assert campaign("plan") == 0
+    said = capsys.readouterr().out
+    assert "4 cells x 3 = 12 runs" in said
+    assert not (tmp_path / "here").exists()
+    assert campaign("run", "--workers", 2) == 0
+    assert "12 of 12 runs done; 12 now" in capsys.readouterr().out
+    assert campaign("status") == 0
+    assert "12 of 12 runs done, 0 failed, 0 missing; nobody is at work" in capsys.readouterr().out
+    assert campaign("collect", "--figures") == 0
+    assert "12 of 12 runs" in capsys.readouterr().out
+    found = rows()
+    assert [row["cell"] for row in found] == [k // 3 for k in range(12)]
+    assert [row["replicate"] for row in found] == [0, 1, 2] * 4
+    assert {(row["robots"], row["booth.dwell_time"]) for row in found} == {(5, 1.0), (5, 2.5), (9, 1.0), (9, 2.5)}
+    assert len({row["seed"] for row in found}) == 12
+    assert len({row["identity"] for row in found}) == 4
+    assert pyarrow.csv.read_csv("here/runs.csv")["seed"].to_pylist() == [row["seed"] for row in found]
+    assert pyarrow.csv.read_csv("here/cells.csv").num_rows == 4
+    assert len(list((tmp_path / "here" / "figures").glob("*.png"))) == 4
+    assert json.loads((tmp_path / "here" / "campaign.json").read_text())["design"]["name"] == "walk"
+
+
+def test_more_runs_only_add(capsys):
+    campaign("run", "--workers", 1)
+    campaign("collect")
+    before = rows()
+    assert campaign("run", "--runs", 4, "--workers", 1) == 0
+    assert "16 of 16 runs done, 12 of them loaded; 4 now" in capsys.readouterr().out
+    campaign("collect", "--runs", 4)
+    assert [row for row in rows() if row["replicate"] < 3] == before
+
+
+def test_a_setting_on_the_command_line_takes_the_place_of_a_factor(capsys):
+    assert campaign("plan", "--set", "robots=7", "--set", "duration=300", "--runs", 1) == 0
+    said = capsys.readouterr().out
+    assert "2 cells x 1 = 2 runs" in said
+
+
+def test_a_failing_run_is_recorded_and_run_again_on_request(tmp_path, capsys):
+    text = DESIGN.replace("replicates = 3", "seeds = [1, 2, 3]\nset = { failing_seed = 2, robots = 5 }")
+    (tmp_path / "study.toml").write_text(text.replace("robots = [5, 9]\n", ""))
+    assert campaign("run", "--workers", 2) == 1
+    said = capsys.readouterr()
+    assert "4 of 6 runs done, 2 failed" in said.out
+    assert "RuntimeError: this seed fails on purpose" in said.err
+    assert campaign("status") == 1
+    said = capsys.readouterr().out
+    assert "cell 0, seed 2: RuntimeError: this seed fails on purpose" in said
+    assert campaign("run", "--workers", 1) == 1
+    assert "0 now" in capsys.readouterr().out
+    assert campaign("run", "--workers", 1, "--retry") == 1
+    assert "the run with seed 2 failed" in capsys.readouterr().err
+    assert campaign("collect") == 1
+    assert [row["seed"] for row in rows()] == [1, 3, 1, 3]
+
+
+def test_a_run_that_takes_too_long_is_ended(tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(f'name = "s"\nsystem = "{WALK}"\nseeds = [1]\nset = {{ pause = 60.0 }}')
+    assert campaign("run", "--time-limit", 0.5) == 1
+    assert "took longer than 0.5 s" in capsys.readouterr().err
+
+
+def test_events_are_kept_if_the_design_says_so(tmp_path):
+    (tmp_path / "study.toml").write_text(f'name = "s"\nsystem = "{WALK}"\nseeds = [4]\nkeep = ["events"]')
+    assert campaign("run") == 0
+    (path,) = (tmp_path / "here").glob("events/*/seed-4.parquet")
+    assert set(pq.read_table(path)["kind"].to_pylist()) == {"ROLE", "SEQUENCE", "DEATH"}
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("replicates = 3", "replicates = 0"), ["study.toml: replicates = 0"]),
+        (("replicates = 3", "replicats = 3"), ["study.toml: replicats: no such key", "replicates"]),
+        ((WALK, "random_walk:NOTHING"), ["study.toml: system", "NOTHING"]),
+        (("robots = [5, 9]", "robbots = [5, 9]"), ["study.toml: factors.robbots", "Did you mean", "robots"]),
+        (("robots = [5, 9]", "robots = [5, 900]"), ["study.toml: cell 2 (robots = 900", "less than or equal to 200"]),
+        (("robots = [5, 9]", 'robots = [5, "nine"]'), ["cell 2 (robots = nine", "robots = 'nine': must be a whole"]),
+        (("robots = [5, 9]", "robots = [5, 5]"), ["cells 0 (robots = 5", "and 2 (robots = 5", "are the same runs"]),
+        (("[1, 2.5]", '[1, "far"]'), ['booth.dwell_time = "far"', "valid number", "0 to 60 s"]),
+        (("[1, 2.5]", "[1, true]"), ["booth.dwell_time = true", "valid number"]),
+        (("[1, 2.5]", "[1, 99]"), ["booth.dwell_time = 99", "less than or equal to 60"]),
+        (("[1, 2.5]", "[1, 1.0]"), ["are the same runs"]),
+        (("[factors]", "keep = ['films']\n[factors]"), ["keep = 'films': must be among events, frames"]),
+        (("[factors]", "set = { dwell_time = 3.0 }\n[factors]"), ["is the same parameter as 'dwell_time'"]),
+        (("[factors]", "[factors"), ["study.toml: is not valid TOML"]),
+    ],
+)
+@pytest.mark.parametrize("verb", ["run", "plan"])
+def test_a_wrong_design_is_refused_before_anything_starts(tmp_path, capsys, change, words, verb):
+    (tmp_path / "study.toml").write_text(DESIGN.replace(*change))
+    assert campaign(verb) == 2
+    said = capsys.readouterr()
+    for word in words:
+        assert word in said.err
+    assert "Traceback" not in said.err
+    assert not (tmp_path / "here").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--runs", 0], "--runs 0: must be at least 1"),
+        (["--workers", 0], "--workers 0: must be at least 1"),
+        (["--time-limit", 0], "--time-limit 0: must be a time"),
+        (["--set", "dwel=3"], "--set dwel: no parameter"),
+        (["--set", "robots=many"], "--set robots=many: must be a whole number"),
+    ],
+)
+def test_a_wrong_option_is_refused_before_anything_starts(tmp_path, capsys, arguments, words):
+    assert campaign("run", *arguments) == 2
+    assert words in capsys.readouterr().err
+    assert not (tmp_path / "here").exists()
