@@ -150,3 +150,30 @@ def test_a_wrong_option_is_refused_before_anything_starts(tmp_path, capsys, argu
     assert campaign("run", *arguments) == 2
     assert words in capsys.readouterr().err
     assert not (tmp_path / "here").exists()
+
+
+def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_path, capsys, monkeypatch):
+    from formicarium.commands import work
+
+    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    assert campaign("run", "--workers", 1, "--runs", 2) == 1  # the workers find other sources and say so
+    assert "the sources were edited" in capsys.readouterr().err
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    assert campaign("run", "--workers", 2) == 0
+    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    assert campaign("status") == 1
+    said = capsys.readouterr().out
+    assert "0 of 12 runs done, 0 failed, 12 missing" in said
+    assert "12 rows made by other sources (--sources " in said
+    own = said.split("--sources ")[1].split(")")[0]
+    assert campaign("collect") == 2
+    assert f"it holds 12 rows made by other sources (--sources {own})" in capsys.readouterr().err
+    assert campaign("collect", "--sources", own) == 0
+    assert len(rows()) == 12
+    assert campaign("clean") == 0
+    assert "12 rows and 4 files can go, 0 rows stay" in capsys.readouterr().out
+    assert campaign("clean", "--yes") == 0
+    assert campaign("status") == 1
+    assert "other sources" not in capsys.readouterr().out.split("removed")[-1]
+    assert not list((tmp_path / "here" / "parts").iterdir())

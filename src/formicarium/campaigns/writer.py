@@ -8,6 +8,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Any
 
+import pyarrow as pa
+
 from formicarium.campaigns import claims, lock, table
 from formicarium.campaigns.cells import Job, Key
 from formicarium.campaigns.files import StoreError, read_json, unwritable, write_json
@@ -96,6 +98,30 @@ class Writer:
         """Record who runs what, when and where."""
         moment = datetime.now(UTC).strftime("%Y%m%dT%H%M%S")
         write_json(self.ledger.folder / "sessions" / f"{moment}-{self.name}.json", provenance)
+
+    @contextmanager
+    def alone(self) -> Iterator[Ledger]:
+        """Hold the folder while nobody else is at work on it; gives the ledger as it is.
+
+        Raises:
+            StoreError: if another writer is at work.
+        """
+        with self._locked():
+            if claims.taken_by_others(self._writers, self.name) or claims.writers(self._writers) > 1:
+                raise StoreError(f"{self.ledger.folder} is in use: a campaign is running in it. Wait for it to end.")
+            yield self.ledger
+
+    def replace_all(self, rows: pa.Table) -> None:
+        """Put these rows in place of all rows, in one part; only to be called ``alone``.
+
+        Killed in between, the old parts are there too: nothing is lost, and the next time it is done.
+        """
+        before = list(self.ledger.known)
+        self.ledger.known, self.ledger.done = {}, set()
+        if len(rows):
+            self._write_part(rows, "-merged")
+        for name in before:
+            (self.ledger.folder / "parts" / name).unlink(missing_ok=True)
 
     @property
     def _writers(self) -> Path:

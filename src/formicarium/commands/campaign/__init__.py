@@ -2,6 +2,7 @@
 
 from cyclopts import App
 
+from formicarium.commands.campaign.clean import clean
 from formicarium.commands.campaign.collect import collect
 from formicarium.commands.campaign.plan import plan
 from formicarium.commands.campaign.run import run
@@ -16,5 +17,5 @@ HELP = """Studies: a table of factors, each cell repeated with seeds of its own,
 """
 
 campaign = App(name="campaign", help=HELP, help_format="plaintext", help_flags=["--help", "-h"])
-for verb in (plan, run, status, collect):
+for verb in (plan, run, status, collect, clean):
     campaign.command(verb)

@@ -13,6 +13,7 @@ from formicarium.campaigns.files import replacing
 from formicarium.campaigns.ledger import Ledger
 from formicarium.campaigns.tidy import tidy
 from formicarium.commands.campaign.screen import wide_console
+from formicarium.commands.campaign.standing import other_rows
 from formicarium.commands.campaign.study import Study, factor_names
 from formicarium.commands.errors import UserError
 from formicarium.commands.summary import measured, published
@@ -35,7 +36,12 @@ def write_answers(study: Study, figures: bool) -> int:
         trouble.print(f"formicarium: {path} is damaged ({reason}): its runs are missing here. Run the campaign again.",
                       highlight=False, soft_wrap=True, markup=False)  # fmt: skip
     if not len(rows):
-        raise UserError(f"{study.folder}: no run of this design is done. Start with: campaign run {study.source}")
+        ledger.refresh()
+        besides = "".join(f"; it holds {count} rows {reason}" for reason, count in other_rows(study, ledger).items())
+        raise UserError(
+            f"{study.folder}: no run of this design is done{besides}. "
+            f"Start with: formicarium campaign run {study.source}"
+        )
     table.write(rows, study.folder / "runs.parquet")
     write_csv(rows, study.folder / "runs.csv")
     summary, shown = _summaries(study, rows)

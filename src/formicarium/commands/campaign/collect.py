@@ -11,6 +11,7 @@ def collect(
     out: str | None = None,
     runs: Whole | None = None,
     set_: Settings = None,
+    sources: str | None = None,
     figures: Switch = False,
 ) -> int:
     """Write one tidy table of all runs that are done, and sum up every cell.
@@ -35,10 +36,12 @@ def collect(
         Runs of each cell, instead of the design's replicates.
     set_
         Change a parameter in all cells: NAME=VALUE, as often as needed.
+    sources
+        Take the rows that these sources made (a hash, as in the rows) instead of today's.
     figures
         Draw the run-time distributions of every cell too.
     """
     from formicarium.commands.campaign.answers import write_answers
     from formicarium.commands.campaign.study import Overrides, open_study
 
-    return write_answers(open_study(design, out, Overrides(runs, tuple(set_ or ()))), figures)
+    return write_answers(open_study(design, out, Overrides(runs, tuple(set_ or ()), sources)), figures)

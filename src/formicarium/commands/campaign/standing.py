@@ -52,7 +52,7 @@ def other_rows(study: Study, ledger: Ledger) -> Mapping[str, int]:
         if identity in wanted:
             found["of seeds that are not in the design"] += seed not in wanted[identity]
         elif identity in configurations and _parameters(configurations[identity]) in parameters:
-            found["made by other sources than today's"] += 1
+            found[f"made by other sources (--sources {configurations[identity]['sources']})"] += 1
         else:
             found["of cells that are not in the design"] += 1
     return {reason: count for reason, count in sorted(found.items()) if count}

@@ -6,7 +6,15 @@ from formicarium.commands.whole import Whole
 SHOWN_FAILURES = 5
 
 
-def status(design: str, /, *, out: str | None = None, runs: Whole | None = None, set_: Settings = None) -> int:
+def status(
+    design: str,
+    /,
+    *,
+    out: str | None = None,
+    runs: Whole | None = None,
+    set_: Settings = None,
+    sources: str | None = None,
+) -> int:
     """Show how far a campaign is, what failed and why; works while it runs, from any terminal.
 
     Exit code 0 if every run of the design is done, 1 if not.
@@ -25,6 +33,8 @@ def status(design: str, /, *, out: str | None = None, runs: Whole | None = None,
         Runs of each cell, instead of the design's replicates.
     set_
         Change a parameter in all cells: NAME=VALUE, as often as needed.
+    sources
+        Count rows that these sources made (a hash, as in the rows) instead of today's.
     """
     from formicarium.campaigns import claims
     from formicarium.campaigns.ledger import Ledger
@@ -32,7 +42,7 @@ def status(design: str, /, *, out: str | None = None, runs: Whole | None = None,
     from formicarium.commands.campaign.standing import cells_table, other_rows, standing_of
     from formicarium.commands.campaign.study import Overrides, open_study
 
-    study = open_study(design, out, Overrides(runs, tuple(set_ or ())))
+    study = open_study(design, out, Overrides(runs, tuple(set_ or ()), sources))
     ledger = Ledger(study.folder)
     ledger.refresh()
     console = wide_console()

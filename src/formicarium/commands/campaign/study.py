@@ -24,6 +24,7 @@ class Overrides(NamedTuple):
 
     runs: int | None = None  # of each cell
     settings: tuple[str, ...] = ()  # "name=value"
+    sources: str | None = None  # hash of the sources that made the rows, instead of today's
 
 
 AS_DESIGNED = Overrides()
@@ -66,6 +67,8 @@ def study_of(content: Mapping[str, Any], source: str, out: str | None, overrides
     for cell in cells_of(design):
         parameters = _parameters(cell, design, system, source)
         configuration = configuration_of(system, parameters)
+        if overrides.sources is not None:
+            configuration = configuration._replace(sources=overrides.sources)
         function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
         jobs.append(Job(cell, configuration, function))
     check_distinct(jobs)
