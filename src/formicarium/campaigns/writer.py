@@ -1,6 +1,8 @@
 """Writing to a ledger: one transaction at a time, by any number of processes on any number of machines."""
 
+import contextlib
 import os
+import time
 import uuid
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -14,11 +16,12 @@ from formicarium.campaigns import claims, lock, table
 from formicarium.campaigns.cells import Job, Key
 from formicarium.campaigns.files import StoreError, read_json, unwritable, write_json
 from formicarium.campaigns.ledger import FORMAT, MANIFEST, Ledger
-from formicarium.campaigns.parts import OWN, distinct, joined, part_of, read_part, write_part
+from formicarium.campaigns.parts import OWN, DamagedPart, distinct, joined, part_of, read_part, write_part
 from formicarium.campaigns.result import Ending, Finished
 
 SMALL_PARTS = 64  # as many parts below LARGE rows are merged into one
 LARGE = 4096  # rows
+HALF_WRITTEN = 600.0  # seconds after which a temporary file has no owner any more
 
 
 class Writer:
@@ -38,10 +41,10 @@ class Writer:
         self._claimed: set[Key] = set()
         self._alive: IO[str] | None = None
         with self._locked():
-            self._alive = claims.register(self._writers, self.name)
             self._write_manifest(manifest)
             for job in jobs:
                 self._write_configuration(job)
+            self._alive = claims.register(self._writers, self.name)
 
     def __enter__(self) -> "Writer":
         """Return the open writer."""
@@ -181,10 +184,16 @@ class Writer:
     def _merge(self, names: Sequence[str]) -> None:
         """Put parts into one. Killed in between, rows are there twice, read once, and merged next time."""
         folder = self.ledger.folder / "parts"
-        there = [name for name in names if (folder / name).exists()]
-        for path in folder.glob(".partial-*"):
-            path.unlink(missing_ok=True)  # of a writer that died: the living write under the lock only
-        self._write_part(distinct(joined([read_part(folder / name) for name in there])), "-merged")
+        _sweep(folder)
+        tables = []
+        for name in names:
+            try:
+                tables.append(read_part(folder / name))
+            except FileNotFoundError:
+                continue
+            except DamagedPart as reason:  # since it was read last
+                self.set_aside(folder / name, str(reason))
+        self._write_part(distinct(joined(tables)), "-merged")
         for name in names:
             (folder / name).unlink(missing_ok=True)
             del self.ledger.known[name]
@@ -239,6 +248,14 @@ class Writer:
         except StoreError:
             self.set_aside(path, "not readable")
         write_json(path, job.configuration.content())
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what writers that died have left half written; a living write takes seconds."""
+    for path in folder.glob(".partial-*"):
+        with contextlib.suppress(OSError):
+            if time.time() - path.stat().st_mtime > HALF_WRITTEN:
+                path.unlink()
 
 
 def _by_key(rows: Any, keys: set[Key]) -> dict[Key, dict[str, Any]]:
