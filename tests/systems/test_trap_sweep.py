@@ -20,13 +20,11 @@ PATIENCE = 20_000  # cycles, then a branch is stuck
 STAND = 0.19  # m, a guardian stands so far inside the wall (TS-36)
 
 
-def parameters(tasks: int, robots: int, side: float, **groups) -> SequencingParameters:
+def parameters(tasks: int, robots: int, side: float) -> SequencingParameters:
     """Return Mark I in a polygon with two sides a task."""
     arena = {"tasks": tasks, "sides": 2 * tasks, "side": side}
-    swarm = {"robots": robots}
-    return SequencingParameters.model_validate(
-        {"arena": arena, "behaviour": {"tasks": tasks}, "swarm": swarm, **groups}
-    )
+    tables = {"arena": arena, "behaviour": {"tasks": tasks}, "swarm": {"robots": robots}}
+    return SequencingParameters.model_validate(tables)
 
 
 # T7
@@ -108,9 +106,9 @@ def test_with_a_frozen_link_the_branch_bends_there_and_does_not_turn(frozen):
 # T8
 
 
-def against_the_wall(seed: int, **groups) -> SequencingState:
+def against_the_wall(seed: int) -> SequencingState:
     """Return a branch that runs from its guardian parallel to the wall into the next wall, tail last, in place."""
-    state = begin(parameters(3, 4, SIDE[3], **groups), seed)
+    state = begin(parameters(3, 4, SIDE[3]), seed)
     first_branch(state, 3, gap=0.165)
     state.memories[3].requested = 0
     return state
