@@ -50,7 +50,7 @@ def kill_at_random(folder, runs, pause, kills, seed, deadline=600):
     process, killed = start(folder, runs, pause), 0
     for number in range(kills):
         before = done_in(folder)
-        wait = chance.uniform(0.0, 3.0 * runs * pause / 2 / (kills + 1))
+        wait = chance.uniform(0.0, (runs - before) * pause / 2 / (kills - number + 1))
         while done_in(folder) == before and process.poll() is None and time.monotonic() < until:
             time.sleep(0.01)
         time.sleep(wait)

@@ -6,6 +6,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 import pytest
 
+from formicarium.commands import work
 from formicarium.commands.main import exit_code
 
 WALK = "random_walk:RANDOM_WALK"
@@ -153,8 +154,6 @@ def test_a_wrong_option_is_refused_before_anything_starts(tmp_path, capsys, argu
 
 
 def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_path, capsys, monkeypatch):
-    from formicarium.commands import work
-
     monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
     assert campaign("run", "--workers", 1, "--runs", 2) == 1  # the workers find other sources and say so
     assert "the sources were edited" in capsys.readouterr().err
@@ -177,3 +176,48 @@ def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_p
     assert campaign("status") == 1
     assert "other sources" not in capsys.readouterr().out.split("removed")[-1]
     assert not list((tmp_path / "here" / "parts").iterdir())
+
+
+def collected(folder, text):
+    (folder / "study.toml").write_text(text)
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+
+
+def test_two_campaigns_are_compared_cell_by_cell(tmp_path, capsys):
+    collected(tmp_path, DESIGN.replace("= 3", "= 8"))
+    (tmp_path / "here").rename(tmp_path / "old")
+    collected(tmp_path, DESIGN.replace("= 3", "= 8\nset = { duration = 300.0 }"))
+    capsys.readouterr()
+    assert exit_code(["campaign", "compare", "old", "here", "--out", "difference.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "log-rank p" in said
+    found = pyarrow.csv.read_csv("difference.csv").to_pylist()
+    assert len(found) == 4 * 3
+    assert [row["robots"] for row in found[::6]] == [5, 9]
+    assert all(row["a.runs"] == row["b.runs"] == 8 for row in found)
+    assert all(row["difference.low"] <= row["difference"] <= row["difference.high"] for row in found)
+    assert all(row["fisher_p"] <= row["fisher_holm"] for row in found)
+    slower = [row for row in found if row["target"] == "5 sequences"]
+    assert all(row["hazard"] < 1 < row["medians"] for row in slower)  # twice the duration is twice the times
+
+
+def test_cells_of_one_campaign_are_compared(tmp_path, capsys):
+    collected(tmp_path, DESIGN)
+    assert exit_code(["campaign", "compare", "here", "here", "--a", "robots=5", "--b", "robots=9"]) == 0
+    assert exit_code(["run", WALK, "--robots", "5", "--runs", "4", "--workers", "1", "--out", "set"]) == 0
+    choice = ["--a", "booth.dwell_time=1"]
+    assert exit_code(["campaign", "compare", "here", "set", *choice]) == 0
+    capsys.readouterr()
+    for arguments, words in (
+        (
+            ["here", "set"],
+            "varies booth.dwell_time (1.0, 2.5), the other does not: choose with --a booth.dwell_time=1.0",
+        ),
+        (["here", "nowhere"], "collect the campaign first"),
+        (["here", "here", "--a", "robots=7"], "has no run with robots=7"),
+        (["here", "here", "--a", "robbots=7"], "Did you mean robots"),
+        (["here", "here", "--out", "x.txt"], "name a .csv file"),
+    ):
+        assert exit_code(["campaign", "compare", *arguments]) == 2
+        assert words in capsys.readouterr().err
