@@ -1,6 +1,11 @@
 """``formicarium campaign``: plan, run, status, collect, on a system without a simulator."""
 
 import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import pyarrow.csv
 import pyarrow.parquet as pq
@@ -9,6 +14,7 @@ import pytest
 from formicarium.commands import work
 from formicarium.commands.main import exit_code
 
+TESTS = Path(__file__).parents[1]
 WALK = "random_walk:RANDOM_WALK"
 DESIGN = f"""
 name = "walk"
@@ -221,3 +227,61 @@ def test_cells_of_one_campaign_are_compared(tmp_path, capsys):
     ):
         assert exit_code(["campaign", "compare", *arguments]) == 2
         assert words in capsys.readouterr().err
+
+
+def stand_in_sbatch(script):
+    """Do what Slurm would: read the array's size from the script and run it once a task."""
+    text = script.read_text()
+    last = int(re.search(r"^#SBATCH --array=0-(\d+)$", text, re.MULTILINE)[1])
+    path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])
+    tasks = [
+        subprocess.Popen(["bash", script], env={**os.environ, "PYTHONPATH": path, "SLURM_ARRAY_TASK_ID": str(task)})
+        for task in range(last + 1)
+    ]
+    assert [task.wait(timeout=60) for task in tasks] == [0] * len(tasks)
+
+
+def test_one_process_two_dask_and_a_slurm_array_give_the_same_bytes(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(TESTS))
+    found = {}
+    ways = {
+        "one": ["--workers", 1],
+        "two": ["--workers", 2],
+        "dask": ["--dask", "local", "--workers", 2],
+        "slurm": ["--slurm-array", 3, "--sbatch=--time=00:10:00"],
+    }
+    for name, words in ways.items():
+        assert campaign("run", *words) == 0
+        if name == "slurm":
+            assert "#SBATCH --time=00:10:00\n" in (tmp_path / "here" / "slurm.sh").read_text()
+            stand_in_sbatch(tmp_path / "here" / "slurm.sh")
+        assert campaign("collect") == 0
+        found[name] = [(tmp_path / "here" / file).read_bytes() for file in ("runs.parquet", "runs.csv", "cells.csv")]
+        (tmp_path / "here").rename(tmp_path / name)
+    assert found["one"] == found["two"] == found["dask"] == found["slurm"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--share", "2/2"], "--share 2/2: expected K/N"),
+        (["--slurm-array", 0], "--slurm-array 0: must be at least 1"),
+        (["--slurm-array", 2, "--sbatch", "time=1"], "--sbatch 'time=1': expected an option"),
+        (["--sbatch=--time=1"], "only together with --slurm-array"),
+        (["--slurm-array", 2, "--dask", "local"], "not together with --dask"),
+        (["--dask-option", "queue=short"], "only together with --dask"),
+        (["--dask", "tcp://nowhere:1", "--workers", 2], "has its own"),
+        (["--dask", "local", "--dask-option", "queue"], "expected NAME=VALUE"),
+    ],
+)
+def test_wrong_words_about_clusters_are_refused(tmp_path, capsys, arguments, words):
+    assert campaign("run", *arguments) == 2
+    assert words in capsys.readouterr().err
+    assert not list(tmp_path.rglob("*.parquet"))
+
+
+def test_without_the_extra_dask_says_what_to_install(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, "formicarium.campaigns.cluster", raising=False)
+    assert campaign("run", "--dask", "local") == 2
+    assert 'distributed is not installed: pip install "formicarium[cluster]"' in capsys.readouterr().err

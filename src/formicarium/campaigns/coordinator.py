@@ -1,5 +1,6 @@
 """Run what a campaign lacks: take runs from the ledger, hand them to a crew, keep what comes back."""
 
+import contextlib
 import math
 import pickle
 import time
@@ -8,6 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from formicarium.campaigns.cells import Job, Key
+from formicarium.campaigns.errors import CrewError, Futile
+from formicarium.campaigns.files import StoreError
 from formicarium.campaigns.interruption import held_back
 from formicarium.campaigns.result import Ending, Finished
 from formicarium.campaigns.workers import Crew, Task
@@ -46,6 +49,7 @@ def run_campaign(
     crew: Crew,
     *,
     keep: Sequence[str] = (),
+    share: tuple[int, int] = (0, 1),
     progress: Callable[[Standing], None] | None = None,
 ) -> Report:
     """Run every run of the jobs that is neither done nor failed; results do not depend on the crew.
@@ -55,24 +59,27 @@ def run_campaign(
         writer: of the ledger.
         crew: who does the runs; it is closed at the end.
         keep: tables a run must have left to count as done.
+        share: (first, every): only every so manieth run of the jobs, beginning with the first.
         progress: told about twice a second how far the campaign is.
 
     Raises:
         KeyboardInterrupt: on Ctrl-C; every run that had ended is kept.
-        Futile: if no run can succeed.
+        Futile: if no run can succeed; every run that had ended is kept.
+        CrewError: if all workers are gone for good; every run that had ended is kept.
         StoreError: if the folder cannot be written; every run kept before stays.
     """
-    sitting = _Sitting(jobs, writer, crew, keep)
+    sitting = _Sitting(jobs, writer, crew, keep, share)
     told = progress or (lambda standing: None)
     try:
         while sitting.goes_on():
             told(sitting.standing())
             sitting.step()
         told(sitting.standing())
-    except BaseException as reason:
-        if not isinstance(reason, Exception):  # Ctrl-C: keep what has ended
-            with held_back():
-                sitting.stop()
+    except StoreError:
+        raise  # nothing more can be kept
+    except BaseException:
+        with held_back():
+            sitting.stop()
         raise
     finally:
         with held_back():
@@ -83,10 +90,10 @@ def run_campaign(
 class _Sitting:
     """The state of one sitting: every run is waiting, taken, running, ended, with others, or done with."""
 
-    def __init__(self, jobs: Sequence[Job], writer: Writer, crew: Crew, keep: Sequence[str]):
+    def __init__(self, jobs: Sequence[Job], writer: Writer, crew: Crew, keep: Sequence[str], share: tuple[int, int]):
         self.writer, self.crew, self.keep = writer, crew, keep
         self.functions = {job.configuration.identity: pickle.dumps(job.function) for job in jobs}
-        keys = [key for job in jobs for key in job.keys]
+        keys = [key for job in jobs for key in job.keys][share[0] :: share[1]]
         failed = writer.ledger.failures()
         self.total = len(keys)
         self.waiting = deque(key for key in keys if key not in failed and not writer.ledger.has(key, keep))
@@ -130,7 +137,8 @@ class _Sitting:
                 self._note(run)
 
     def stop(self) -> None:
-        self.ended += self.crew.finished(0.0)
+        with contextlib.suppress(CrewError, Futile):  # one of them may be why it stops
+            self.ended += self.crew.finished(0.0)
         self._exchange(0)
 
     def _note(self, run: Finished) -> None:

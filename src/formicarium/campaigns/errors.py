@@ -7,3 +7,7 @@ class DesignError(Exception):
 
 class Futile(Exception):
     """Raised by a function when no further run can succeed: the campaign stops instead of failing run by run."""
+
+
+class CrewError(Exception):
+    """Workers cannot be had, or are gone; what was kept before stays."""

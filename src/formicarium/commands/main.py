@@ -13,7 +13,7 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from formicarium import __version__
-from formicarium.campaigns.errors import DesignError, Futile
+from formicarium.campaigns.errors import CrewError, DesignError, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
@@ -61,7 +61,7 @@ def exit_code(arguments: Sequence[str]) -> int:
         return _say(f"{_plain(error)} See: {command} --help", 2)
     except (UserError, DesignError, StoreError) as error:
         return _say(str(error), 2)
-    except Futile as error:
+    except (CrewError, Futile) as error:
         return _say(str(error), 1)
     except KeyboardInterrupt as interruption:
         return _say(str(interruption) or "interrupted", 130)
