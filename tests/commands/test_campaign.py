@@ -11,6 +11,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 import pytest
 
+from formicarium.campaigns import table
 from formicarium.commands import work
 from formicarium.commands.main import exit_code
 
@@ -285,3 +286,38 @@ def test_without_the_extra_dask_says_what_to_install(capsys, monkeypatch):
     monkeypatch.delitem(sys.modules, "formicarium.campaigns.cluster", raising=False)
     assert campaign("run", "--dask", "local") == 2
     assert 'distributed is not installed: pip install "formicarium[cluster]"' in capsys.readouterr().err
+
+
+def test_runs_of_other_folders_are_taken_over(tmp_path, capsys):
+    """A set made by ``run``, then a campaign made elsewhere; what is there is checked, not overwritten."""
+    head = f'name = "walk"\nsystem = "{WALK}"\nfirst_seed = 1\nreplicates = 4\nkeep = ["events"]\n'
+    (tmp_path / "study.toml").write_text(head + "[factors]\nrobots = [5, 9]")
+    assert campaign("run") == 0
+    campaign("collect")
+    undisturbed = (tmp_path / "here" / "runs.parquet").read_bytes()
+    (tmp_path / "here").rename(tmp_path / "elsewhere")
+    assert exit_code(["run", WALK, "--robots", "5", "--runs", "6", "--workers", "1", "--out", "set"]) == 0
+    capsys.readouterr()
+    assert exit_code(["campaign", "adopt", "study.toml", "set", "--out", "here"]) == 0
+    assert "4 runs taken over, 0 were there, 2 are not in the design" in capsys.readouterr().out
+    assert exit_code(["campaign", "adopt", "study.toml", "elsewhere", "--out", "here"]) == 0
+    assert "4 runs taken over, 4 were there, 0 are not in the design" in capsys.readouterr().out
+    assert campaign("run") == 0
+    assert "0 now" in capsys.readouterr().out
+    campaign("collect")
+    assert (tmp_path / "here" / "runs.parquet").read_bytes() == undisturbed
+    assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "here"]) == 2
+    assert "holds no results" in capsys.readouterr().err
+
+
+def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(f'name = "walk"\nsystem = "{WALK}"\nseeds = [1, 2]')
+    campaign("run")
+    exit_code(["run", WALK, "--runs", "2", "--workers", "1", "--out", "set"])
+    path = tmp_path / "set" / "runs.parquet"
+    rows = table.read(path)
+    changed = rows.set_column(rows.column_names.index("sequences"), "sequences", pyarrow.array([99, 98]))
+    table.write(changed.replace_schema_metadata(rows.schema.metadata), path)
+    capsys.readouterr()
+    assert exit_code(["campaign", "adopt", "study.toml", "set", "--out", "here"]) == 2
+    assert "contradict each other: seed 1" in capsys.readouterr().err

@@ -126,7 +126,7 @@ class Ledger:
         version = manifest.get("format")
         if version != FORMAT:
             newer = isinstance(version, int) and version > FORMAT
-            way_out = "update the package" if newer else "it is damaged, move it away"
+            way_out = "update the package" if newer else "it is damaged, move it away"  # older ones: see adoption.py
             raise StoreError(f"{path} has format {version!r}, this version knows {FORMAT}: {way_out}.")
         return manifest
 

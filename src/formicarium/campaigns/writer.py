@@ -103,6 +103,16 @@ class Writer:
         write_json(self.ledger.folder / "sessions" / f"{moment}-{self.name}.json", provenance)
 
     @contextmanager
+    def transaction(self) -> Iterator[Ledger]:
+        """Hold the folder during the block; gives the ledger as it is."""
+        with self._locked():
+            yield self.ledger
+
+    def add(self, rows: pa.Table) -> None:
+        """Add rows that are not there yet, as one part; only to be called in a ``transaction``."""
+        self._write_part(rows)
+
+    @contextmanager
     def alone(self) -> Iterator[Ledger]:
         """Hold the folder while nobody else is at work on it; gives the ledger as it is.
 

@@ -2,6 +2,7 @@
 
 from cyclopts import App
 
+from formicarium.commands.campaign.adopt import adopt
 from formicarium.commands.campaign.clean import clean
 from formicarium.commands.campaign.collect import collect
 from formicarium.commands.campaign.compare import compare
@@ -19,5 +20,5 @@ HELP = """Studies: a table of factors, each cell repeated with seeds of its own,
 """
 
 campaign = App(name="campaign", help=HELP, help_format="plaintext", help_flags=["--help", "-h"])
-for verb in (plan, run, status, collect, compare, clean):
+for verb in (plan, run, status, collect, compare, adopt, clean):
     campaign.command(verb)

@@ -1,0 +1,94 @@
+"""What a campaign costs beside its trials: against a bare loop, and two workers against two bare processes.
+
+    python benchmarks/campaign_overhead.py [TRIALS [REPEATS]]
+
+A trial is a fixed amount of plain Python that takes about a second here. Bare and campaign take turns in the same
+run, so that a busy machine slows both; both start their processes anew, and that is in the time. Reported are the
+median and the range over the repeats of the ratio of neighbours.
+"""
+
+import statistics
+import sys
+import tempfile
+import time
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+
+from formicarium.campaigns.cells import Job, cells_of
+from formicarium.campaigns.configuration import Configuration
+from formicarium.campaigns.coordinator import run_campaign
+from formicarium.campaigns.design import make_design
+from formicarium.campaigns.ledger import Ledger
+from formicarium.campaigns.result import Result
+from formicarium.campaigns.workers import Processes
+from formicarium.campaigns.writer import Writer
+
+MANIFEST = {"name": "overhead", "system": "work"}
+
+
+def work(amount: int, seed: int, watch: object) -> Result:
+    """Count; the result is a row like that of a trial."""
+    value = seed
+    for number in range(amount):
+        value = (value * 1103515245 + number) % 2147483648
+    return Result({"value": value, **{f"column_{k}": value % (k + 2) for k in range(30)}}, {})
+
+
+def loop(amount: int, trials: int, first: int) -> None:
+    """Do the trials one after the other and keep nothing."""
+    for seed in range(first, first + trials):
+        work(amount, seed, None)
+
+
+def bare(amount: int, trials: int, processes: int) -> float:
+    """Return the seconds that bare processes need for so many trials each."""
+    context = get_context("spawn")
+    started = time.perf_counter()
+    crew = [context.Process(target=loop, args=(amount, trials, 1 + trials * k)) for k in range(processes)]
+    for process in crew:
+        process.start()
+    for process in crew:
+        process.join()
+    return time.perf_counter() - started
+
+
+def campaign(amount: int, trials: int, workers: int) -> float:
+    """Return the seconds that a campaign of so many trials a worker needs, with all that it writes."""
+    design = make_design({**MANIFEST, "replicates": trials * workers, "first_seed": 1})
+    jobs = [Job(cell, Configuration("work", {}, "none", "0"), partial(work, amount)) for cell in cells_of(design)]
+    with tempfile.TemporaryDirectory() as folder:
+        started = time.perf_counter()
+        with Writer(Ledger(Path(folder)), MANIFEST, jobs) as writer:
+            report = run_campaign(jobs, writer, Processes(workers))
+        seconds = time.perf_counter() - started
+    assert report.standing.done == trials * workers
+    return seconds
+
+
+def calibrated(seconds: float = 1.0) -> int:
+    """Return the amount of work that takes about so long here."""
+    started = time.process_time()
+    work(1_000_000, 1, None)
+    return int(1_000_000 * seconds / (time.process_time() - started))
+
+
+def measure(amount: int, trials: int, repeats: int, workers: int) -> list[tuple[float, float]]:
+    """Return (bare, campaign) seconds of every repeat, taking turns."""
+    return [(bare(amount, trials, workers), campaign(amount, trials, workers)) for _ in range(repeats)]
+
+
+if __name__ == "__main__":
+    trials, repeats = (int(word) for word in (sys.argv[1:] + ["20", "3"][len(sys.argv[1:]) :]))
+    amount = calibrated()
+    for workers, name in ((1, "one worker against a bare loop"), (2, "two workers against two bare processes")):
+        before = time.process_time()
+        found = measure(amount, trials, repeats, workers)
+        coordinating = (time.process_time() - before) / (trials * workers * repeats)
+        overheads = [campaign / bare - 1 for bare, campaign in found]
+        print(
+            f"{name}: overhead {statistics.median(overheads):+.1%} ({min(overheads):+.1%} to {max(overheads):+.1%}); "
+            f"coordinator {coordinating * 1000:.1f} ms of processor time a trial; "
+            f"seconds {', '.join(f'{bare:.2f}/{campaign:.2f}' for bare, campaign in found)}",
+            flush=True,
+        )

@@ -1,0 +1,110 @@
+"""Take over runs that another folder holds: a set of one configuration, or another ledger, of any format known here.
+
+This is how results move on when the format of a ledger changes, and how ledgers filled on several machines are
+put together.
+"""
+
+import json
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pyarrow as pa
+
+from formicarium.campaigns import table
+from formicarium.campaigns.cells import Job
+from formicarium.campaigns.files import StoreError, read_json, replacing
+from formicarium.campaigns.ledger import MANIFEST, Ledger
+from formicarium.campaigns.parts import OWN
+from formicarium.campaigns.writer import Writer
+
+
+class Adopted(NamedTuple):
+    """What came of it."""
+
+    new: int  # rows taken over
+    known: int  # rows that were there already
+    other: int  # rows that belong to no run of the design: other parameters, seeds or sources
+
+
+def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, keep: Sequence[str] = ()) -> Adopted:
+    """Take over the rows of a folder that the jobs want, with the tables that they keep.
+
+    Raises:
+        StoreError: if the folder holds no results, a file in it is damaged, or a row contradicts one that is there.
+    """
+    rows = _rows_of_ledger(folder) if (folder / MANIFEST).exists() else _rows_of_set(folder)
+    wanted = {key: job for job in jobs for key in job.keys}
+    keys = list(zip(rows["identity"].to_pylist(), rows["seed"].to_pylist()))
+    ours = [place for place, key in enumerate(keys) if key in wanted]
+    with writer.transaction() as ledger:
+        new = [place for place in ours if keys[place] not in ledger.done]
+        _check_same(ledger, rows.take(pa.array(sorted({*ours} - {*new}), pa.int64())), folder)
+        for place in ours:
+            for name in keep:
+                _copy_table(folder, ledger, name, keys[place])
+        if new:
+            factors = [json.dumps(dict(wanted[keys[place]].cell.factors), sort_keys=True) for place in new]
+            found = rows.take(pa.array(new, pa.int64()))
+            index = found.column_names.index("factors")
+            writer.add(found.set_column(index, "factors", pa.array(factors)))
+    return Adopted(len(new), len(ours) - len(new), len(keys) - len(ours))
+
+
+def _rows_of_ledger(folder: Path) -> pa.Table:
+    ledger = Ledger(folder)
+    rows = ledger.rows()
+    for name, reason in ledger.damaged.items():
+        raise StoreError(f"{folder / 'parts' / name} is damaged ({reason}): move it away, then try again")
+    return rows
+
+
+def _rows_of_set(folder: Path) -> pa.Table:
+    if not (folder / "configuration.json").exists() or not (folder / "runs.parquet").exists():
+        raise StoreError(f"{folder} holds no results: neither {MANIFEST} nor configuration.json with runs.parquet")
+    configuration, rows = read_json(folder / "configuration.json"), table.read(folder / "runs.parquet")
+    identity = str(configuration.get("identity"))
+    if table.metadata_of(rows.schema).get("identity") != identity:
+        raise StoreError(f"{folder / 'runs.parquet'} does not belong to the configuration.json beside it")
+    seconds, path = {}, folder / "timings.parquet"
+    if path.exists():
+        timings = table.read(path)
+        seconds = dict(zip(timings["seed"].to_pylist(), timings["wall_seconds"].to_pylist()))
+    count = len(rows)
+    own = {
+        "identity": [identity] * count,
+        "seed": rows["seed"].to_pylist(),
+        "sources": [str(configuration.get("sources"))] * count,
+        "factors": ["{}"] * count,
+        "wall_seconds": [seconds.get(seed, 0.0) for seed in rows["seed"].to_pylist()],
+        "worker": [str(folder)] * count,
+    }
+    columns = {name: pa.array(values, OWN[name]) for name, values in own.items()}
+    results = {name: rows[name] for name in rows.column_names if name != "seed"}
+    if reserved := sorted(OWN.keys() & results.keys()):
+        raise StoreError(f"{folder / 'runs.parquet'} has a column {reserved[0]!r}, which a ledger needs for itself")
+    return pa.table(columns | results)
+
+
+def _check_same(ledger: Ledger, known: pa.Table, folder: Path) -> None:
+    if not len(known):
+        return
+    stored = {(row["identity"], row["seed"]): row for row in ledger.rows().to_pylist()}
+    for row in known.to_pylist():
+        before = stored[(row["identity"], row["seed"])]
+        results = [{name: value for name, value in one.items() if name not in OWN} for one in (row, before)]
+        if not table.same(*results):
+            raise StoreError(
+                f"{folder} and {ledger.folder} contradict each other: seed {row['seed']} of configuration "
+                f"{row['identity']} gave different rows. Nothing was taken over."
+            )
+
+
+def _copy_table(folder: Path, ledger: Ledger, name: str, key: tuple[str, int]) -> None:
+    target = ledger.table_path(name, key)
+    places = (folder / name / key[0] / target.name, folder / name / target.name)
+    source = next((place for place in places if place.exists()), None)
+    if source is not None and not target.exists():
+        with replacing(target) as temporary:
+            shutil.copyfile(source, temporary)
