@@ -4,7 +4,8 @@
 
 A trial is a fixed amount of plain Python that takes about a second here. Bare and campaign take turns in the same
 run, so that a busy machine slows both; both start their processes anew, and that is in the time. Reported are the
-median and the range over the repeats of the ratio of neighbours.
+median and the range over the repeats of the ratio of neighbours. Where others use the machine too, two more figures
+say more: the share of the workers' time that was spent inside trials, and the processor time of the coordinator.
 """
 
 import statistics
@@ -53,8 +54,11 @@ def bare(amount: int, trials: int, processes: int) -> float:
     return time.perf_counter() - started
 
 
-def campaign(amount: int, trials: int, workers: int) -> float:
-    """Return the seconds that a campaign of so many trials a worker needs, with all that it writes."""
+def campaign(amount: int, trials: int, workers: int) -> tuple[float, float]:
+    """Run a campaign of so many trials a worker.
+
+    Returns the seconds that it needs with all that it writes, and the share of the workers' time inside trials.
+    """
     design = make_design({**MANIFEST, "replicates": trials * workers, "first_seed": 1})
     jobs = [Job(cell, Configuration("work", {}, "none", "0"), partial(work, amount)) for cell in cells_of(design)]
     with tempfile.TemporaryDirectory() as folder:
@@ -62,8 +66,9 @@ def campaign(amount: int, trials: int, workers: int) -> float:
         with Writer(Ledger(Path(folder)), MANIFEST, jobs) as writer:
             report = run_campaign(jobs, writer, Processes(workers))
         seconds = time.perf_counter() - started
+        inside = sum(Ledger(Path(folder)).rows()["wall_seconds"].to_pylist())
     assert report.standing.done == trials * workers
-    return seconds
+    return seconds, inside / (workers * seconds)
 
 
 def calibrated(seconds: float = 1.0) -> int:
@@ -73,9 +78,9 @@ def calibrated(seconds: float = 1.0) -> int:
     return int(1_000_000 * seconds / (time.process_time() - started))
 
 
-def measure(amount: int, trials: int, repeats: int, workers: int) -> list[tuple[float, float]]:
-    """Return (bare, campaign) seconds of every repeat, taking turns."""
-    return [(bare(amount, trials, workers), campaign(amount, trials, workers)) for _ in range(repeats)]
+def measure(amount: int, trials: int, repeats: int, workers: int) -> list[tuple[float, float, float]]:
+    """Return seconds bare, seconds as a campaign, and its share inside trials, of every repeat."""
+    return [(bare(amount, trials, workers), *campaign(amount, trials, workers)) for _ in range(repeats)]
 
 
 if __name__ == "__main__":
@@ -85,10 +90,11 @@ if __name__ == "__main__":
         before = time.process_time()
         found = measure(amount, trials, repeats, workers)
         coordinating = (time.process_time() - before) / (trials * workers * repeats)
-        overheads = [campaign / bare - 1 for bare, campaign in found]
+        overheads = [whole / alone - 1 for alone, whole, _ in found]
         print(
             f"{name}: overhead {statistics.median(overheads):+.1%} ({min(overheads):+.1%} to {max(overheads):+.1%}); "
             f"coordinator {coordinating * 1000:.1f} ms of processor time a trial; "
-            f"seconds {', '.join(f'{bare:.2f}/{campaign:.2f}' for bare, campaign in found)}",
+            f"inside trials {statistics.median(share for _, _, share in found):.1%}; "
+            f"seconds {', '.join(f'{alone:.2f}/{whole:.2f}' for alone, whole, _ in found)}",
             flush=True,
         )

@@ -3,6 +3,8 @@
 import errno
 import json
 import os
+import runpy
+from pathlib import Path
 
 import pytest
 
@@ -247,3 +249,11 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("mine")
     with pytest.raises(StoreError, match=r"cannot (write|read) .*file"):
         Writer(Ledger(tmp_path / "file" / "below"), MANIFEST, jobs(10))
+
+
+@pytest.mark.long
+def test_a_hundred_thousand_rows_open_filter_and_collect_in_3_seconds_and_500_megabytes():
+    benchmark = Path(__file__).parents[2] / "benchmarks" / "campaign_store.py"
+    found = runpy.run_path(str(benchmark))["measure"](100_000)
+    assert found["whole_s"] < 3.0, found
+    assert found["peak_mb"] < 500, found

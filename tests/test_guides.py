@@ -1,0 +1,68 @@
+"""The guides are executed: files are written, commands typed, Python run, up to the cluster's door."""
+
+import os
+import re
+import shlex
+import subprocess
+from functools import partial
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+
+from formicarium.commands.campaign import study
+from formicarium.commands.main import exit_code
+
+ROOT = Path(__file__).parents[1]
+BLOCK = re.compile(r"^<!-- (?P<kind>[^>]+?) -->\n```\w*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+SHORT = ["--set", "time_cap=20"]  # simulated seconds
+CHANGING = {"plan", "run", "status", "collect", "clean", "adopt"}  # verbs that take --set
+
+
+def typed(line):
+    words = shlex.split(line)
+    assert words[0] == "formicarium"
+    if words[1] == "run":
+        words += [*SHORT, "--workers", "1"]
+    elif words[1] == "campaign" and words[2] in CHANGING:
+        words += SHORT
+    return words[1:]
+
+
+def submitted(script):
+    """Do what Slurm would do with an array of tasks, one after the other."""
+    last = int(re.search(r"^#SBATCH --array=0-(\d+)$", Path(script).read_text(), re.MULTILINE)[1])
+    for task in range(last + 1):
+        subprocess.run(["bash", script], env={**os.environ, "SLURM_ARRAY_TASK_ID": str(task)}, check=True)
+
+
+def execute(kind, text):
+    if kind.startswith("file: "):
+        Path(kind.removeprefix("file: ")).write_text(text)
+    elif kind == "commands":
+        for line in text.splitlines():
+            assert exit_code(typed(line)) == 0, line
+    elif kind == "python":
+        exec(compile(text, "campaigns.md", "exec"), {})
+    elif kind == "sbatch":
+        submitted(shlex.split(text)[1])
+    else:
+        assert kind == "at the cluster"
+
+
+def test_the_guide_to_campaigns_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.chdir(tmp_path)
+    overrides = study.Overrides(settings=(SHORT[1],))
+    monkeypatch.setattr(study, "open_study", partial(study.open_study, overrides=overrides))
+    text = (ROOT / "docs" / "guides" / "campaigns.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+    assert exit_code(["campaign", "plan", "settings.toml", *SHORT]) == 0
+    for name in ("on-dask", "formicarium-results/how-many"):
+        assert exit_code(["campaign", "collect", "study.toml", "--out", name, *SHORT]) == 0
+    tables = [pq.read_table(f"{name}/runs.parquet") for name in ("on-dask", "on-slurm", "formicarium-results/how-many")]
+    assert tables[0].num_rows == 8
+    assert tables[0].equals(tables[1]) and tables[0].equals(tables[2])
