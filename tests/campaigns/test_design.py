@@ -82,6 +82,7 @@ def test_listed_seeds_are_used_as_they_are():
         ({"factors": {"a": 3}}, ["factors.a = 3"]),
         ({"factors": {"a": [{"b": 1}]}}, ["factors.a[0]", "must be a number, a text"]),
         ({"factors": {"a": [float("nan")]}}, ["factors.a[0] = NaN"]),
+        ({"rows": []}, ["'rows' is an empty table"]),
         ({"rows": [{"a": 1}, {"a": 1, "b": 2}]}, ["rows[1] alone has 'b'"]),
         ({"rows": [{"a": 1, "b": 2}, {"a": 1}]}, ["rows[1] has no 'b'"]),
         ({"rows": [{"a": 1}], "factors": {"a": [2]}}, ["'a' is in 'factors' and in 'rows'"]),

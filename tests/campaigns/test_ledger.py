@@ -148,8 +148,8 @@ def test_a_reader_does_not_mind_parts_that_are_merged_under_its_eyes(tmp_path, u
         found = listing(self)
         if not merged:
             merged.append(True)
-            with Writer(Ledger(tmp_path), MANIFEST, jobs(RUNS)) as other, other._locked():
-                other._merge(list(other.ledger.known))
+            with Writer(Ledger(tmp_path), MANIFEST, jobs(RUNS)) as other, other.transaction():
+                other.merge(list(other.ledger.known))
         return found
 
     monkeypatch.setattr(Ledger, "_listing", then_merge)

@@ -4,7 +4,9 @@ A writer holds the lock of ``writers/<name>.lock`` as long as it lives and notes
 ``writers/<name>.json``. All functions are called under the lock of the folder.
 """
 
+import contextlib
 import json
+import time
 from collections.abc import Iterable
 from pathlib import Path
 from typing import IO
@@ -16,8 +18,8 @@ from formicarium.campaigns.files import unwritable
 
 def register(folder: Path, name: str) -> IO[str]:
     """Announce a writer; it is alive until the file that is returned is closed."""
-    file = lock.try_acquire(folder / f"{name}.lock")
-    assert file is not None, "names of writers are unique"
+    while (file := lock.try_acquire(folder / f"{name}.lock")) is None:
+        time.sleep(0.01)  # somebody is just counting the writers
     return file
 
 
@@ -42,8 +44,9 @@ def taken_by_others(folder: Path, name: str) -> set[Key]:
             notes.unlink(missing_ok=True)
             path.unlink(missing_ok=True)
             file.close()
-        elif notes.exists():
-            taken.update((identity, seed) for identity, seed in json.loads(notes.read_text(encoding="utf-8")))
+        else:
+            with contextlib.suppress(FileNotFoundError, ValueError):  # it has not taken any yet
+                taken.update((identity, seed) for identity, seed in json.loads(notes.read_text(encoding="utf-8")))
     return taken
 
 

@@ -84,7 +84,7 @@ def run_campaign(
     finally:
         with held_back():
             crew.close()
-    return Report(sitting.standing(), sitting.loaded, tuple(sitting.failures), tuple(writer.notes))
+    return Report(sitting.final(), sitting.loaded, tuple(sitting.failures), tuple(writer.notes))
 
 
 class _Sitting:
@@ -93,7 +93,7 @@ class _Sitting:
     def __init__(self, jobs: Sequence[Job], writer: Writer, crew: Crew, keep: Sequence[str], share: tuple[int, int]):
         self.writer, self.crew, self.keep = writer, crew, keep
         self.functions = {job.configuration.identity: pickle.dumps(job.function) for job in jobs}
-        keys = [key for job in jobs for key in job.keys][share[0] :: share[1]]
+        self.keys = keys = [key for job in jobs for key in job.keys][share[0] :: share[1]]
         failed = writer.ledger.failures()
         self.total = len(keys)
         self.waiting = deque(key for key in keys if key not in failed and not writer.ledger.has(key, keep))
@@ -117,6 +117,15 @@ class _Sitting:
         done = self.total - open_runs - failed
         seconds = time.monotonic() - self.began
         return Standing(self.total, done, failed, self.crew.busy, len(self.others), self.produced, seconds)
+
+    def final(self) -> Standing:
+        """Count again at the end: other coordinators may have seen runs fail."""
+        ledger = self.writer.ledger
+        ledger.refresh()
+        done = [ledger.has(key, self.keep) for key in self.keys]
+        failures = ledger.failures()
+        failed = sum(key in failures and not there for key, there in zip(self.keys, done))
+        return self.standing()._replace(done=sum(done), failed=failed)
 
     def step(self) -> None:
         now = time.monotonic()
@@ -143,10 +152,11 @@ class _Sitting:
 
     def _note(self, run: Finished) -> None:
         key = (run.identity, run.seed)
-        self.deaths[key] += run.ending == Ending.DIED
-        if run.ending == Ending.DIED and self.deaths[key] < ATTEMPTS:
-            self.taken.appendleft(key)
-            return
+        if run.ending == Ending.DIED:
+            self.deaths[key] += 1
+            if self.deaths[key] < ATTEMPTS:
+                self.taken.appendleft(key)
+                return
         self.pace = run.seconds if math.isinf(self.pace) else 0.8 * self.pace + 0.2 * run.seconds
         self.ended.append(run)
 

@@ -59,6 +59,8 @@ class Design(BaseModel):
             raise ValueError("'replicates' is missing: say how often each cell is run, or list its 'seeds'")
         if self.first_seed is not None and self.first_seed + self.count > MOST_SEED:
             raise ValueError(f"'first_seed' = {self.first_seed}: the last seed would be above 2^63 - 1")
+        if "rows" in self.model_fields_set and not self.rows:
+            raise ValueError("'rows' is an empty table: there is nothing to run")
         _check_rows(self.rows)
         for name in self.factors:
             places = [place for place, known in (("rows", self.rows[:1]), ("set", [self.fixed])) if name in _all(known)]

@@ -9,6 +9,8 @@ import pyarrow as pa
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.parts import OWN
 
+PLACE = ("cell", "replicate")  # columns that say where in the design a run is
+
 
 def tidy(rows: pa.Table, jobs: Sequence[Job]) -> pa.Table:
     """Pick the runs of a design out of a ledger and put its factors beside them.
@@ -26,7 +28,9 @@ def tidy(rows: pa.Table, jobs: Sequence[Job]) -> pa.Table:
     places = _places(rows, jobs)
     found = rows.take(pa.array([place for place, _, _ in places], pa.int64()))
     cells = [jobs[cell].cell for _, cell, _ in places]
-    results = {name: found[name] for name in found.column_names if name not in OWN}
+    results = {
+        f"result.{name}" if name in PLACE else name: found[name] for name in found.column_names if name not in OWN
+    }
     results = {name: column for name, column in results.items() if column.null_count < len(column)} | {
         name: column.cast(pa.string()) if pa.types.is_null(column.type) else column
         for name, column in results.items()
@@ -38,7 +42,8 @@ def tidy(rows: pa.Table, jobs: Sequence[Job]) -> pa.Table:
         if name in results and results[name].to_pylist() == values:
             columns[name] = results.pop(name)
         else:
-            columns[name if name not in results else f"factor.{name}"] = _column(values)
+            taken = name in results or name in (*PLACE, *OWN)
+            columns[f"factor.{name}" if taken else name] = _column(values)
     columns["replicate"] = pa.array([replicate for _, _, replicate in places], pa.int64())
     columns["seed"] = found["seed"]
     columns |= results

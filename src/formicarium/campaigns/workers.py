@@ -1,10 +1,11 @@
 """Worker processes: each takes runs one after the other, and whatever becomes of it is reported."""
 
+import math
 import pickle
 import signal
 import time
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from multiprocessing import connection, get_context
 from typing import Any, NamedTuple, Protocol
 
@@ -42,8 +43,10 @@ class Crew(Protocol):
         """End all workers, whatever they are doing."""
 
 
-def attempt(task: Task, worker: int | str, watch: Watch | None = None) -> Finished:
-    """Do a run in this process.
+def attempt(
+    task: Task, worker: int | str, watch: Watch | None = None, begun: Callable[[], None] = lambda: None
+) -> Finished:
+    """Do a run in this process; ``begun`` is told when everything it needs is imported.
 
     Raises:
         Futile: if the function says that no run can succeed.
@@ -51,6 +54,7 @@ def attempt(task: Task, worker: int | str, watch: Watch | None = None) -> Finish
     started = time.perf_counter()
     try:
         function: Function = pickle.loads(task.function)
+        begun()
         result, failure, ending = function(task.seed, watch), "", Ending.DONE
     except Futile:
         raise
@@ -59,16 +63,24 @@ def attempt(task: Task, worker: int | str, watch: Watch | None = None) -> Finish
     return Finished(task.seed, result, failure, time.perf_counter() - started, worker, ending, task.identity)
 
 
-def serve(pipe: Any, number: int) -> None:
+BEGUN = "begun"  # what a worker says between a task and its answer, if runs have a time limit
+
+
+def serve(pipe: Any, number: int, timed: bool) -> None:
     """Be a worker: take tasks from the pipe and answer each with a Finished, until the pipe closes.
 
     A parent that dies closes the pipe, so no worker outlives its parent by more than the run at hand.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def begun() -> None:
+        if timed:
+            pipe.send(BEGUN)
+
     try:
         while (task := pipe.recv()) is not None:
             try:
-                pipe.send(attempt(task, number))
+                pipe.send(attempt(task, number, begun=begun))
             except Futile as reason:
                 pipe.send(reason)
     except (EOFError, OSError):
@@ -79,7 +91,8 @@ class _Worker(NamedTuple):
     process: Any
     number: int
     task: Task  # the run it is busy with, or was
-    started: float  # time.monotonic() of its start
+    sent: float  # time.monotonic() when it was given the run
+    began: float  # time.monotonic() when it began, infinite before; imports do not count against the time limit
 
 
 class Processes:
@@ -112,18 +125,18 @@ class Processes:
             except OSError:  # it died, perhaps after its last answer: another takes its place
                 pipe.close()
                 continue
-            self._working[pipe] = worker._replace(task=task, started=time.monotonic())
+            self._working[pipe] = _Worker(worker.process, worker.number, task, time.monotonic(), math.inf)
             return
         taken = {worker.number for worker in self._working.values()}
         number = next(k for k in range(self.capacity + 1) if k not in taken)
         # "spawn": compiled code and its threads do not survive a fork.
         context = get_context("spawn")
         ours, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs, number), daemon=True)
+        process = context.Process(target=serve, args=(theirs, number, self.time_limit is not None), daemon=True)
         with hidden_from_children():
             process.start()
         theirs.close()  # so that the end of the worker is the end of the pipe
-        self._working[ours] = _Worker(process, number, task, time.monotonic())
+        self._working[ours] = _Worker(process, number, task, time.monotonic(), math.inf)
         ours.send(task)
 
     def finished(self, seconds: float | None) -> list[Finished]:
@@ -133,13 +146,14 @@ class Processes:
             Futile: if a function said that no run can succeed.
         """
         if self.time_limit is not None and self._working:
-            first = min(worker.started for worker in self._working.values()) + self.time_limit
-            left = max(first - time.monotonic(), 0.0)
-            seconds = left if seconds is None else min(seconds, left)
+            first = min(worker.began for worker in self._working.values()) + self.time_limit
+            if math.isfinite(first):
+                left = max(first - time.monotonic(), 0.0)
+                seconds = left if seconds is None else min(seconds, left)
         ready = connection.wait(list(self._working), seconds)
         with held_back():  # half an answer would be none; a Ctrl-C leaves what has arrived for the next call
             for pipe in ready:
-                self._ended.append(self._receive(pipe))
+                self._ended += self._receive(pipe)
             self._ended += self._late()
         ended, self._ended = self._ended, []
         return ended
@@ -153,7 +167,7 @@ class Processes:
             pipe.close()
         self._working, self._idle = {}, {}
 
-    def _receive(self, pipe: Any) -> Finished:
+    def _receive(self, pipe: Any) -> list[Finished]:
         worker = self._working.pop(pipe)
         try:
             answer = pipe.recv()
@@ -161,16 +175,19 @@ class Processes:
             worker.process.join()
             pipe.close()
             reason = f"the process of this run ended with exit code {worker.process.exitcode} before it was done"
-            return _unfinished(worker, reason, Ending.DIED)
+            return [_unfinished(worker, reason, Ending.DIED)]
+        if answer == BEGUN:
+            self._working[pipe] = worker._replace(began=time.monotonic())
+            return []
         self._idle[pipe] = worker
         if isinstance(answer, Futile):
             raise answer
-        return answer
+        return [answer]
 
     def _late(self) -> list[Finished]:
         now, late = time.monotonic(), []
         for pipe, worker in list(self._working.items()):
-            if self.time_limit is not None and now - worker.started >= self.time_limit:
+            if self.time_limit is not None and now - worker.began >= self.time_limit:
                 del self._working[pipe]
                 worker.process.kill()
                 worker.process.join()
@@ -180,7 +197,7 @@ class Processes:
 
 
 def _unfinished(worker: _Worker, reason: str, ending: Ending) -> Finished:
-    seconds = time.monotonic() - worker.started
+    seconds = time.monotonic() - worker.sent
     return Finished(worker.task.seed, None, reason, seconds, worker.number, ending, worker.task.identity)
 
 
