@@ -101,7 +101,7 @@ def test_what_is_wrong_is_named(change, words):
 
 
 def test_too_many_runs_are_refused():
-    with pytest.raises(DesignError, match="at most 10,000,000"):
+    with pytest.raises(DesignError, match="at most 1,000,000"):
         cells(factors={"a": list(range(5000)), "b": list(range(5000))})
 
 

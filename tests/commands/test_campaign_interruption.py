@@ -31,9 +31,9 @@ def design(tmp_path, monkeypatch):
     (tmp_path / "study.toml").write_text(DESIGN)
 
 
-def start():
+def start(*more):
     path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])
-    words = ["campaign", "run", "study.toml", "--out", "here", "--workers", "2"]
+    words = ["campaign", "run", "study.toml", "--out", "here", "--workers", "2", *more]
     return subprocess.Popen(
         [sys.executable, "-m", "formicarium.commands.main", *words],
         env={**os.environ, "PYTHONPATH": path}, text=True,
@@ -55,9 +55,16 @@ def wait_for_rows(folder, count, process):
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("ending", ["SIGINT", "SIGTERM"])
-def test_an_ended_campaign_says_what_is_done_and_goes_on(tmp_path, capsys, ending):
-    process = start()
+@pytest.mark.parametrize(
+    ("ending", "more"),
+    [
+        ("SIGINT", ()),
+        ("SIGTERM", ()),
+        pytest.param("SIGINT", ("--dask", "local"), marks=pytest.mark.long),
+    ],
+)
+def test_an_ended_campaign_says_what_is_done_and_goes_on(tmp_path, capsys, ending, more):
+    process = start(*more)
     wait_for_rows(tmp_path / "here", 2, process)
     assert exit_code(["campaign", "status", "study.toml", "--out", "here"]) == 1
     assert "missing; 1 at work on it now" in capsys.readouterr().out

@@ -185,7 +185,17 @@ def test_describe_and_systems_list_what_there_is(capsys):
         assert word in said
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["describe", "--help"], ["--version"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        ["run", "--help"],
+        ["describe", "--help"],
+        ["campaign", "--help"],
+        ["campaign", "run", "--help"],
+        ["--version"],
+    ],
+)
 def test_help_is_answered_without_importing_anything_heavy(arguments):
     code = (
         "import sys; from formicarium.commands.main import exit_code; "

@@ -11,7 +11,7 @@ from formicarium.campaigns.errors import DesignError
 from formicarium.campaigns.result import Function
 from formicarium.campaigns.seeds import seeds_of
 
-MOST_RUNS = 10_000_000  # of a design; more is a slip of the pen
+MOST_RUNS = 1_000_000  # of a design; more is a slip of the pen
 
 Key = tuple[str, int]  # identity of the configuration and seed: what makes a run this run
 

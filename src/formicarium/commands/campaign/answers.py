@@ -40,7 +40,7 @@ def write_answers(study: Study, figures: bool) -> int:
         besides = "".join(f"; it holds {count} rows {reason}" for reason, count in other_rows(study, ledger).items())
         raise UserError(
             f"{study.folder}: no run of this design is done{besides}. "
-            f"Start with: formicarium campaign run {study.source}"
+            f"Start with: formicarium campaign run {study.source}{study.options}"
         )
     table.write(rows, study.folder / "runs.parquet")
     write_csv(rows, study.folder / "runs.csv")

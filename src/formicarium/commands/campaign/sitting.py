@@ -169,7 +169,9 @@ def _print(study: Study, report: Report) -> None:
         highlight=False,
     )
     screen.print(f"results   {study.folder}", highlight=False, soft_wrap=True)
-    screen.print(f"next      formicarium campaign collect {study.source}", highlight=False, soft_wrap=True)
+    screen.print(
+        f"next      formicarium campaign collect {study.source}{study.options}", highlight=False, soft_wrap=True
+    )
     for note in report.notes:
         trouble.print(f"formicarium: {note}", highlight=False, soft_wrap=True, markup=False)
     for run in report.failures[:SHOWN_FAILURES]:

@@ -59,8 +59,11 @@ def status(
         + (f"{working} at work on it now" if working else "nobody is at work on it")
     )
     console.print(cells_table(study, cells))
-    for reason, count in other_rows(study, ledger).items():
-        say(f"besides   {count} rows {reason}: they do not count; remove them with: formicarium campaign clean")
+    others = other_rows(study, ledger)
+    for reason, count in others.items():
+        say(f"besides   {count} rows {reason}: they do not count")
+    if others:
+        say(f"          remove them with: formicarium campaign clean {study.source}{study.options}")
     for name, reason in ledger.damaged.items():
         say(f"damaged   {study.folder / 'parts' / name} ({reason}): the next run sets it aside and repeats its runs")
     failures = ledger.failures()

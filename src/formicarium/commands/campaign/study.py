@@ -1,5 +1,6 @@
 """A design joined to its system: cells that can be run, and the folder of their rows."""
 
+import shlex
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -38,6 +39,7 @@ class Study(NamedTuple):
     system: System
     jobs: list[Job]
     folder: Path
+    options: str = ""  # of the command line that other verbs need too, to mean the same runs
 
     @property
     def manifest(self) -> dict[str, Any]:
@@ -74,7 +76,15 @@ def study_of(content: Mapping[str, Any], source: str, out: str | None, overrides
     check_distinct(jobs)
     if out == "":
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
-    return Study(source, design, system, jobs, Path(out or f"formicarium-results/{design.name}"))
+    folder = Path(out or f"formicarium-results/{design.name}")
+    return Study(source, design, system, jobs, folder, _options(out, overrides))
+
+
+def _options(out: str | None, overrides: Overrides) -> str:
+    words = ["--out", out] if out else []
+    words += ["--runs", str(overrides.runs)] if overrides.runs is not None else []
+    words += [word for setting in overrides.settings for word in ("--set", setting)]
+    return "".join(f" {shlex.quote(word)}" for word in words)
 
 
 def _system(design: Design, source: str) -> System:
