@@ -1,11 +1,12 @@
 """What a campaign costs beside its trials: against a bare loop, and two workers against two bare processes.
 
-    python benchmarks/campaign_overhead.py [TRIALS [REPEATS]]
+    python benchmarks/campaign_overhead.py work|wait [TRIALS [REPEATS]]
 
-A trial is a fixed amount of plain Python that takes about a second here. Bare and campaign take turns in the same
-run, so that a busy machine slows both; both start their processes anew, and that is in the time. Reported are the
-median and the range over the repeats of the ratio of neighbours. Where others use the machine too, two more figures
-say more: the share of the workers' time that was spent inside trials, and the processor time of the coordinator.
+A trial is a fixed amount of plain Python that takes about a second here (work), or a second of sleep (wait): on a
+machine that others use, only the second can be measured to a percent; what the coordinator computes comes on top.
+Bare and campaign take turns in the same run; both start their processes anew, and that is in the time. Reported are
+the median and the range over the repeats of the ratio of neighbours, the share of the workers' time that was spent
+inside trials, and the processor time of the coordinator.
 """
 
 import statistics
@@ -29,8 +30,10 @@ MANIFEST = {"name": "overhead", "system": "work"}
 
 
 def work(amount: int, seed: int, watch: object) -> Result:
-    """Count; the result is a row like that of a trial."""
+    """Count, or sleep a second if there is nothing to count; the result is a row like that of a trial."""
     value = seed
+    if amount == 0:
+        time.sleep(1.0)
     for number in range(amount):
         value = (value * 1103515245 + number) % 2147483648
     return Result({"value": value, **{f"column_{k}": value % (k + 2) for k in range(30)}}, {})
@@ -84,8 +87,9 @@ def measure(amount: int, trials: int, repeats: int, workers: int) -> list[tuple[
 
 
 if __name__ == "__main__":
-    trials, repeats = (int(word) for word in (sys.argv[1:] + ["20", "3"][len(sys.argv[1:]) :]))
-    amount = calibrated()
+    kind, *numbers = sys.argv[1:] or ["work"]
+    trials, repeats = (int(word) for word in [*numbers, *["20", "3"][len(numbers) :]])
+    amount = calibrated() if kind == "work" else 0
     for workers, name in ((1, "one worker against a bare loop"), (2, "two workers against two bare processes")):
         before = time.process_time()
         found = measure(amount, trials, repeats, workers)

@@ -4,7 +4,6 @@ import os
 import re
 import shlex
 import subprocess
-from functools import partial
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -53,8 +52,8 @@ def execute(kind, text):
 def test_the_guide_to_campaigns_is_true(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
-    overrides = study.Overrides(settings=(SHORT[1],))
-    monkeypatch.setattr(study, "open_study", partial(study.open_study, overrides=overrides))
+    short, original = study.Overrides(settings=(SHORT[1],)), study.open_study
+    monkeypatch.setattr(study, "open_study", lambda path, out, given=short: original(path, out, given))
     text = (ROOT / "docs" / "guides" / "campaigns.md").read_text(encoding="utf-8")
     blocks = BLOCK.findall(text)
     assert len(blocks) == text.count("```") // 2

@@ -92,6 +92,27 @@ def test_a_campaign_of_500_trials_survives_20_kills(tmp_path, seed):
 
 
 @posix
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_two_coordinators_killed_in_turn_lose_and_repeat_nothing(tmp_path, seed):
+    chance = random.Random(seed)
+    both = [start(tmp_path, 400, 0.1) for _ in range(2)]
+    for _ in range(15):
+        time.sleep(chance.uniform(0.3, 2.0))
+        index = chance.randrange(2)
+        workers = workers_of(both[index])
+        if workers and chance.random() < 0.4:
+            os.kill(chance.choice(workers), signal.SIGKILL)
+        else:
+            both[index].kill()
+            both[index].communicate()
+            both[index] = start(tmp_path, 400, 0.1)
+    answers = [process.communicate(timeout=120) for process in both]
+    assert [process.returncode for process in both] == [0, 0], answers
+    check_whole(tmp_path, 400)
+
+
+@posix
 def test_two_coordinators_share_the_runs(tmp_path):
     both = [start(tmp_path, 60, 0.05) for _ in range(2)]
     answers = [process.communicate(timeout=60) for process in both]

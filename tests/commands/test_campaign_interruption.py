@@ -59,7 +59,7 @@ def wait_for_rows(folder, count, process):
     ("ending", "more"),
     [
         ("SIGINT", ()),
-        ("SIGTERM", ()),
+        pytest.param("SIGTERM", (), marks=pytest.mark.long),
         pytest.param("SIGINT", ("--dask", "local"), marks=pytest.mark.long),
     ],
 )

@@ -30,3 +30,9 @@ def test_equal_sets_do_not_differ():
     times = [1.0, 2.0, None]
     assert log_rank(times, [3.0] * 3, times, [3.0] * 3).p_value == pytest.approx(1.0)
     assert fisher(5, 10, 5, 10).p_value == pytest.approx(1.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_sets_in_which_nothing_was_reached_do_not_differ():
+    assert log_rank([None, None], [9.0, 9.0], [None], [5.0]) == ("log-rank", 0.0, 1.0)
+    assert log_rank([None], [1.0], [2.0], [2.0]).p_value == 1.0

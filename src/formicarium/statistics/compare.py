@@ -24,9 +24,13 @@ def log_rank(
 ) -> Comparison:
     """Compare two run-time distributions with censoring (log-rank test; Mantel 1966).
 
-    Times and ends as for ``run_times``. The statistic is the signed square root of chi-squared.
+    Times and ends as for ``run_times``. The statistic is the signed square root of chi-squared; where no run of one
+    set reached the target while runs of both were still going, nothing speaks for a difference.
     """
-    result = stats.logrank(_censored(times, ends), _censored(other_times, other_ends))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        result = stats.logrank(_censored(times, ends), _censored(other_times, other_ends))
+    if not math.isfinite(result.statistic):
+        return Comparison("log-rank", 0.0, 1.0)
     return Comparison("log-rank", float(result.statistic), float(result.pvalue))
 
 

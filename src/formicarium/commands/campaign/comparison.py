@@ -1,7 +1,6 @@
 """Two sets of runs against each other: matched by cell, tested by target."""
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -165,7 +164,6 @@ def _compared(
     reached = tuple(sum(time is not None for time in side) for side in times)
     counts = (reached[0], len(one), reached[1], len(other))
     both = (times[0], ends[0], times[1], ends[1])
-    log_rank_p = log_rank(*both).p_value if reached[0] + reached[1] else 1.0
     return Compared(
         cell,
         label,
@@ -176,7 +174,7 @@ def _compared(
         fisher(*counts).p_value,
         hazard_ratio(*both),
         median_ratio(*both),
-        1.0 if math.isnan(log_rank_p) else log_rank_p,  # nobody was at risk in both sets at once
+        log_rank(*both).p_value,
     )
 
 
