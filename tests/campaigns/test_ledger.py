@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import runpy
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -11,10 +12,12 @@ import pytest
 from counted_campaign import MANIFEST, campaign, jobs, keys_in_parts, table
 from formicarium.campaigns import parts, writer
 from formicarium.campaigns.coordinator import run_campaign
+from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.campaigns.here import Here
 from formicarium.campaigns.ledger import Ledger
 from formicarium.campaigns.result import Finished, Result
+from formicarium.campaigns.workers import Processes
 from formicarium.campaigns.writer import Writer
 
 RUNS = 12
@@ -249,6 +252,61 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("mine")
     with pytest.raises(StoreError, match=r"cannot (write|read) .*file"):
         Writer(Ledger(tmp_path / "file" / "below"), MANIFEST, jobs(10))
+
+
+def jobs_giving(give, runs=4):
+    """Return jobs whose runs give what ``give(seed)`` says."""
+    return [job._replace(function=partial(given, give)) for job in jobs(runs)]
+
+
+def given(give, seed, watch):
+    return give(seed)
+
+
+def a_list(seed):
+    return Result({"value": [1, 2]} if seed == 2 else {"value": 1}, {})
+
+
+def nothing(seed):
+    return None if seed == 2 else Result({"value": 1}, {})
+
+
+def mixed(seed):
+    return Result({"value": "many" if seed == 2 else seed, "large": 2**70, "truth": seed == 1 or 0.5}, {})
+
+
+def futile(seed):
+    if seed == 2:
+        raise Futile("nothing will ever come of it")
+    return Result({"value": seed}, {})
+
+
+@pytest.mark.parametrize(("give", "words"), [(a_list, "'value' of the row is a list"), (nothing, "not NoneType")])
+def test_what_no_table_can_hold_is_a_failure_and_the_others_go_on(tmp_path, give, words):
+    report, _ = campaign(tmp_path, Here(), jobs_giving(give))
+    assert (report.standing.done, report.standing.failed) == (2, 2)
+    assert words in report.failures[0].failure
+
+
+@pytest.mark.parametrize("period", [1e-6, 0.5])
+def test_a_column_of_numbers_and_texts_becomes_text(tmp_path, monkeypatch, period):
+    monkeypatch.setattr("formicarium.campaigns.coordinator.PERIOD", period)
+    _, found = campaign(tmp_path, Here(), jobs_giving(mixed))
+    assert found["value"].to_pylist() == ["1", "many", "1", "many"]
+    assert found["large"].to_pylist() == [str(2**70)] * 4
+    assert campaign(tmp_path, Here(), jobs_giving(mixed))[0].loaded == 4
+
+
+@pytest.mark.parametrize("crew", [Here, partial(Processes, 2)])
+def test_what_is_futile_stops_the_campaign_and_keeps_what_has_ended(tmp_path, crew):
+    with pytest.raises(Futile, match="nothing will ever"):
+        campaign(tmp_path, crew(), jobs_giving(futile))
+    ledger = Ledger(tmp_path)
+    ledger.refresh()
+    assert not ledger.failures()
+    if crew is Here:
+        assert {seed for _, seed in ledger.done} == {1}
+    assert campaign(tmp_path, Here(), jobs(4))[0].standing.done == 4
 
 
 @pytest.mark.long

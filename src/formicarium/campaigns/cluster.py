@@ -108,6 +108,7 @@ class DaskCrew:
         self._ended: queue.SimpleQueue[str] = queue.SimpleQueue()
         self._capacity, self._looked = 1, 0.0
         self._number = 0
+        self._futile: Futile | None = None
 
     @property
     def capacity(self) -> int:
@@ -120,8 +121,8 @@ class DaskCrew:
 
     @property
     def busy(self) -> int:
-        """How many runs the scheduler has."""
-        return len(self._under_way)
+        """How many runs the scheduler has; a reason to stop that was not told yet counts as one."""
+        return len(self._under_way) + (self._futile is not None)
 
     def start(self, task: Task) -> None:
         """Hand a run to the scheduler.
@@ -149,7 +150,11 @@ class DaskCrew:
             while True:
                 keys.append(self._ended.get_nowait())
         self._check()
-        return [self._result(key) for key in keys]
+        ended = [run for key in keys if (run := self._result(key)) is not None]
+        if self._futile is not None and not ended:  # what has ended well comes first
+            reason, self._futile = self._futile, None
+            raise reason
+        return ended
 
     def close(self) -> None:
         """Take back what has not ended, and leave or end the cluster."""
@@ -166,12 +171,13 @@ class DaskCrew:
         if self._client.status != "running":
             raise CrewError("the Dask scheduler is gone; what had arrived from it is kept. Start it anew and go on.")
 
-    def _result(self, key: str) -> Finished:
+    def _result(self, key: str) -> Finished | None:
         task, future = self._under_way.pop(key)
         try:
             return future.result(timeout=PATIENCE)
-        except Futile:
-            raise
+        except Futile as error:
+            self._futile = error
+            return None
         except (KilledWorker, TimeoutError, distributed.CancelledError) as error:
             reason, ending = f"the Dask worker of this run was lost ({type(error).__name__})", Ending.DIED
         except Exception as error:  # it could not even be begun there: a module is missing, a version differs

@@ -23,7 +23,7 @@ import pyarrow.parquet as pq
 
 from formicarium.campaigns.files import StoreError, replacing
 from formicarium.campaigns.result import Finished
-from formicarium.campaigns.table import from_rows, with_metadata
+from formicarium.campaigns.table import as_text, from_rows, with_metadata
 
 FORMAT = 1  # of a part; noted in its metadata
 OWN = {
@@ -85,17 +85,37 @@ def read_part(path: Path, columns: list[str] | None = None) -> pa.Table:
 
 
 def joined(tables: list[pa.Table]) -> pa.Table:
-    """Put tables one below the other; columns that some lack are empty there, whole numbers may become fractions.
+    """Put tables one below the other.
 
-    Raises:
-        StoreError: if a column is text in one and a number in another.
+    Columns that some lack are empty there; whole numbers may become fractions, and all may become text.
     """
     if not tables:
         return pa.table({name: pa.array([], kind) for name, kind in OWN.items()})
     try:
         return pa.concat_tables(tables, promote_options="permissive").replace_schema_metadata(None)
-    except pa.ArrowException as error:
-        raise StoreError(f"rows do not fit together: {str(error).splitlines()[0]}") from error
+    except pa.ArrowException:
+        return pa.concat_tables(_as_text(tables), promote_options="permissive").replace_schema_metadata(None)
+
+
+def _as_text(tables: list[pa.Table]) -> list[pa.Table]:
+    """Make text of the columns that are text in some tables and something else in others."""
+    kinds: dict[str, set[pa.DataType]] = {}
+    for table in tables:
+        for field in table.schema:
+            if not pa.types.is_null(field.type):
+                kinds.setdefault(field.name, set()).add(field.type)
+    mixed = {name for name, found in kinds.items() if len(found) > 1 and not all(map(_is_number, found))}
+    made = []
+    for table in tables:
+        for index, name in enumerate(table.column_names):
+            if name in mixed:
+                table = table.set_column(index, name, as_text(table[name].to_pylist()))
+        made.append(table)
+    return made
+
+
+def _is_number(kind: pa.DataType) -> bool:
+    return pa.types.is_integer(kind) or pa.types.is_floating(kind)
 
 
 def distinct(table: pa.Table) -> pa.Table:

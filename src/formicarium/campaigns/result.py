@@ -2,8 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from enum import StrEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import numpy as np
 import pyarrow as pa
 
 from formicarium.campaigns.table import Row
@@ -38,6 +39,21 @@ class Finished(NamedTuple):
     worker: int | str  # number or name of the worker that did it
     ending: Ending = Ending.DONE
     identity: str = ""  # of the configuration, where there are several
+
+
+def checked(result: Any) -> Result:
+    """Return what a function gave if a table can hold it.
+
+    Raises:
+        TypeError: if it is no Result, or a value of its row is not plain.
+    """
+    if not isinstance(result, Result):
+        raise TypeError(f"a run must give a Result, not {type(result).__name__}")
+    for name, value in result.row.items():
+        if not isinstance(value, int | float | str | np.generic | None):
+            plain = "a number, a text, true, false or None"
+            raise TypeError(f"column {name!r} of the row is a {type(value).__name__}; it must be {plain}")
+    return result
 
 
 # A function to be repeated: seed and watch -> result. Importable by name, so that other processes find it.

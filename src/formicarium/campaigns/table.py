@@ -20,9 +20,19 @@ def from_rows(rows: Iterable[Row]) -> pa.Table:
 
 
 def _column(values: list[Any]) -> pa.Array:
-    if any(isinstance(value, float) for value in values):  # whole numbers among fractions
-        return pa.array(values, pa.float64())
-    return pa.array(values)
+    kinds = {type(value) for value in values if value is not None}
+    try:
+        if kinds and all(issubclass(kind, int | float) and kind is not bool for kind in kinds) and len(kinds) > 1:
+            return pa.array(values, pa.float64())  # whole numbers among fractions
+        return pa.array(values)
+    except (pa.ArrowException, OverflowError):
+        return as_text(values)
+
+
+def as_text(values: list[Any]) -> pa.Array:
+    """Make texts of values that have no type in common; 1 and 1.0 are one text."""
+    whole = [int(value) if isinstance(value, float) and value.is_integer() else value for value in values]
+    return pa.array([None if value is None else str(value) for value in whole], pa.string())
 
 
 def with_metadata(table: pa.Table, metadata: Mapping[str, str]) -> pa.Table:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.interruption import held_back, hidden_from_children
-from formicarium.campaigns.result import Ending, Finished, Function, Watch
+from formicarium.campaigns.result import Ending, Finished, Function, Watch, checked
 
 
 class Task(NamedTuple):
@@ -55,7 +55,7 @@ def attempt(
     try:
         function: Function = pickle.loads(task.function)
         begun()
-        result, failure, ending = function(task.seed, watch), "", Ending.DONE
+        result, failure, ending = checked(function(task.seed, watch)), "", Ending.DONE
     except Futile:
         raise
     except Exception:
@@ -110,11 +110,12 @@ class Processes:
         self._working: dict[Any, _Worker] = {}
         self._idle: dict[Any, _Worker] = {}
         self._ended: list[Finished] = []
+        self._futile: Futile | None = None
 
     @property
     def busy(self) -> int:
-        """How many runs are under way."""
-        return len(self._working)
+        """How many runs are under way; a reason to stop that was not told yet counts as one."""
+        return len(self._working) + (self._futile is not None)
 
     def start(self, task: Task) -> None:
         """Begin a run on a worker that is idle, or on a new one."""
@@ -156,6 +157,9 @@ class Processes:
                 self._ended += self._receive(pipe)
             self._ended += self._late()
         ended, self._ended = self._ended, []
+        if self._futile is not None and not ended:  # what has ended well comes first
+            reason, self._futile = self._futile, None
+            raise reason
         return ended
 
     def close(self) -> None:
@@ -181,7 +185,8 @@ class Processes:
             return []
         self._idle[pipe] = worker
         if isinstance(answer, Futile):
-            raise answer
+            self._futile = answer
+            return []
         return [answer]
 
     def _late(self) -> list[Finished]:
