@@ -13,10 +13,11 @@ import distributed
 from distributed.client import Client, Future
 from distributed.scheduler import KilledWorker
 
+from formicarium.campaigns.crew import Task, attempt
 from formicarium.campaigns.errors import CrewError, Futile
 from formicarium.campaigns.interruption import hidden_from_children
 from formicarium.campaigns.result import Ending, Finished
-from formicarium.campaigns.workers import Processes, Task, attempt
+from formicarium.campaigns.workers import Processes
 
 BATCH_SYSTEMS = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "sge": "SGECluster"}
 AHEAD = 2  # runs under way for each thread of the cluster, so that none waits for its next

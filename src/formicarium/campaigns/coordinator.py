@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from formicarium.campaigns.cells import Job, Key
+from formicarium.campaigns.crew import Crew, Task
 from formicarium.campaigns.errors import CrewError, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.campaigns.interruption import held_back
 from formicarium.campaigns.result import Ending, Finished
-from formicarium.campaigns.workers import Crew, Task
 from formicarium.campaigns.writer import Writer
 
 PERIOD = 0.5  # seconds between two transactions: what a kill can cost besides the runs under way

@@ -2,8 +2,8 @@
 
 from collections import deque
 
+from formicarium.campaigns.crew import Task, attempt
 from formicarium.campaigns.result import Finished
-from formicarium.campaigns.workers import Task, attempt
 
 
 class Here:

@@ -10,13 +10,14 @@ from typing import IO, Any
 import pyarrow as pa
 
 from formicarium.campaigns import claims, lock, table
+from formicarium.campaigns.agreement import agreeing
 from formicarium.campaigns.cells import Job, Key
 from formicarium.campaigns.damaged import set_aside, sweep
 from formicarium.campaigns.files import StoreError
 from formicarium.campaigns.ledger import Ledger
-from formicarium.campaigns.parts import OWN, DamagedPart, distinct, joined, part_of, read_part, write_part
+from formicarium.campaigns.parts import DamagedPart, distinct, joined, part_of, read_part, write_part
 from formicarium.campaigns.records import write_configuration, write_failure, write_manifest, write_session
-from formicarium.campaigns.result import Ending, Finished
+from formicarium.campaigns.result import Finished
 
 SMALL_PARTS = 64  # as many parts below LARGE rows are merged into one
 LARGE = 4096  # rows
@@ -153,7 +154,7 @@ class Writer:
         return taken, passed
 
     def _commit(self, finished: Sequence[Finished]) -> list[Finished]:
-        kept = self._checked(finished)
+        kept = agreeing(self.ledger, finished)
         for run in kept:
             key = (run.identity, run.seed)
             if run.result is None:
@@ -197,29 +198,3 @@ class Writer:
             with contextlib.suppress(PermissionError):  # somebody reads it (Windows): merged again another time
                 (self.ledger.folder / "parts" / name).unlink(missing_ok=True)
             del self.ledger.known[name]
-
-    def _checked(self, finished: Sequence[Finished]) -> list[Finished]:
-        """Turn runs into failures that contradict the rows stored or whose columns have reserved names."""
-        known = {(run.identity, run.seed) for run in finished} & self.ledger.done
-        stored = _by_key(self.ledger.rows(), known) if known else {}
-        kept = []
-        for run in finished:
-            reason = ""
-            if run.result is not None:
-                before = stored.get((run.identity, run.seed))
-                reserved = sorted(OWN.keys() & run.result.row.keys())
-                if reserved:
-                    reason = f"its row has a column {reserved[0]!r}, a name that the ledger needs for itself"
-                elif before is not None and not table.same(run.result.row, before):
-                    reason = "it was run again and gave another row than the one stored: it does not repeat"
-            kept.append(run._replace(result=None, failure=reason, ending=Ending.FAILED) if reason else run)
-        return kept
-
-
-def _by_key(rows: pa.Table, keys: set[Key]) -> dict[Key, dict[str, Any]]:
-    found = {}
-    for index, key in enumerate(zip(rows["identity"].to_pylist(), rows["seed"].to_pylist())):
-        if key in keys:
-            (row,) = rows.slice(index, 1).to_pylist()
-            found[key] = {name: value for name, value in row.items() if name not in OWN}
-    return found

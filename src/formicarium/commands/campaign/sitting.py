@@ -13,9 +13,10 @@ from typing import Any, NamedTuple
 from rich.console import Console
 
 from formicarium.campaigns.coordinator import Report, Standing, run_campaign
+from formicarium.campaigns.crew import Crew
 from formicarium.campaigns.ledger import Ledger
 from formicarium.campaigns.provenance import session
-from formicarium.campaigns.workers import Crew, Processes
+from formicarium.campaigns.workers import Processes
 from formicarium.campaigns.writer import Writer
 from formicarium.commands.campaign.progress import CampaignProgress
 from formicarium.commands.campaign.slurm import write_script
