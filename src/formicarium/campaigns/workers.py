@@ -164,7 +164,8 @@ def finished_runs(
     A run that raises, or whose process dies, is yielded as a failure and the others go on. On Ctrl-C what has
     already arrived is yielded, the workers are ended and KeyboardInterrupt goes on to the caller.
     """
-    tasks = [Task(pickle.dumps(function), seed) for seed in seeds]
+    packed = pickle.dumps(function)
+    tasks = [Task(packed, seed) for seed in seeds]
     workers = min(workers, len(tasks))
     if workers <= 1:
         for task in tasks:
