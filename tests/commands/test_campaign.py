@@ -242,6 +242,7 @@ def stand_in_sbatch(script):
     assert [task.wait(timeout=60) for task in tasks] == [0] * len(tasks)
 
 
+@pytest.mark.long  # the guide's test does nearly the same
 def test_one_process_two_dask_and_a_slurm_array_give_the_same_bytes(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(TESTS))
     found = {}

@@ -17,7 +17,7 @@ DESIGN = """
 name = "walk"
 system = "random_walk:RANDOM_WALK"
 first_seed = 1
-replicates = 6
+replicates = 4
 set = { pause = 0.2 }
 [factors]
 robots = [5, 9]
@@ -75,7 +75,7 @@ def test_an_ended_campaign_says_what_is_done_and_goes_on(tmp_path, capsys, endin
     _, said = process.communicate(timeout=60)
     before = done(tmp_path / "here")
     assert process.returncode == 130
-    assert f"interrupted: {before} of 12 runs are done and kept in here. The same command continues." in said
+    assert f"interrupted: {before} of 8 runs are done and kept in here. The same command continues." in said
     assert "Traceback" not in said
     assert not list((tmp_path / "here" / "writers").iterdir())
     until = time.monotonic() + 10
@@ -84,4 +84,4 @@ def test_an_ended_campaign_says_what_is_done_and_goes_on(tmp_path, capsys, endin
             os.killpg(process.pid, 0)
             time.sleep(0.05)
     out, said = start().communicate(timeout=60)
-    assert f"12 of 12 runs done, {before} of them loaded" in out, said
+    assert f"8 of 8 runs done, {before} of them loaded" in out, said
