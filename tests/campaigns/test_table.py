@@ -1,5 +1,9 @@
 """Tables come back as they were written, in the same bytes, and a flipped bit is noticed."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -43,3 +47,16 @@ def test_a_damaged_table_is_named(tmp_path, place):
     path.write_bytes({"cut": content[: len(content) // 2], "empty": b"", "flipped": content}[place])
     with pytest.raises(StoreError, match=r"runs\.parquet is damaged .*Move it away"):
         table.read(path)
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts threads as Linux lists them")
+def test_reading_starts_no_threads(tmp_path):
+    """Threads of Arrow abort the interpreter at its exit, now and then (apache/arrow issue 34314)."""
+    path = tmp_path / "runs.parquet"
+    table.write(table.from_rows([{"seed": k, "time": k / 7, "name": str(k)} for k in range(1000)]), path)
+    code = (
+        "import os, sys; from pathlib import Path; from formicarium.campaigns import parts, table; "
+        "before = len(os.listdir('/proc/self/task')); table.read(Path(sys.argv[1])); "
+        "sys.exit(len(os.listdir('/proc/self/task')) - before)"
+    )
+    assert subprocess.run([sys.executable, "-c", code, str(path)], check=False).returncode == 0

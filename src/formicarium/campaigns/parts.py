@@ -23,7 +23,7 @@ import pyarrow.parquet as pq
 
 from formicarium.campaigns.files import StoreError, replacing
 from formicarium.campaigns.result import Finished
-from formicarium.campaigns.table import as_text, from_rows, with_metadata
+from formicarium.campaigns.table import as_text, from_rows, parsed, with_metadata
 
 FORMAT = 1  # of a part; noted in its metadata
 OWN = {
@@ -75,7 +75,7 @@ def read_part(path: Path, columns: list[str] | None = None) -> pa.Table:
     except OSError as error:
         raise StoreError(f"cannot read {path}: {error.strerror or error}") from error
     try:
-        table = pq.read_table(pa.BufferReader(content), columns=columns, page_checksum_verification=True)
+        table = parsed(content, columns)
     except (pa.ArrowException, OSError, ValueError) as error:
         raise DamagedPart(str(error).splitlines()[0][:200]) from error
     for name in columns or OWN:
