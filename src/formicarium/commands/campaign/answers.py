@@ -59,8 +59,8 @@ def write_csv(rows: pa.Table, path: Path) -> None:
     """Write a table as CSV, whole; what is missing is empty."""
     from pyarrow import csv
 
-    with replacing(path) as temporary:
-        csv.write_csv(rows, temporary)
+    with replacing(path) as temporary, pa.OSFile(str(temporary), "wb") as file:  # given a path it would start a thread
+        csv.write_csv(rows, file)
 
 
 def _rows_of(rows: pa.Table, job: Job) -> list[dict[str, Any]]:
