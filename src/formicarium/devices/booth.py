@@ -33,7 +33,9 @@ LIGHTS = ((0.035, -0.025), (0.035, 0.0), (0.035, 0.025))  # m, places of the lig
 class BoothTable(Table):
     """Timing and reliability of the booths."""
 
-    task_time: float = number(5.0, "s", "a robot must stay this long; 3 to 10 [choice U25]", gt=0, le=3600)
+    task_time: float = number(
+        7.0, "s", "a robot must stay this long; 3 to 10 [tuned on the pace of sequences, U25]", gt=0, le=3600
+    )
     byte_period: float = number(0.2, "s", "the booth sends a byte this often [device firmware]", gt=0, le=60)
     exchange_failure: float = number(0.02, "1", "probability that a visit gets no answer [choice TS-25]", ge=0, le=1)
     friction: float = number(0.1, "1", "of the walls [model]", ge=0)

@@ -17,22 +17,31 @@ from formicarium.streams import derived
 
 @compiled
 def sense(state):
-    """Fill in every living robot's Reading from the world and from what the others did in the last cycle."""
+    """Fill in every living robot's Reading from the world and from what the others did in the last cycle.
+
+    Sensor by sensor, not robot by robot.
+    """
     cycle = state.clock[0].cycle
     epuck = state.epuck[0]
     for i in range(len(state.robots)):
         robot = state.robots[i]
-        if robot.alive == 0:
-            continue
-        reading = state.readings[i]
-        moment = derived(robot.noise, cycle)
-        reading.identity = robot.identity
-        reading.cycle = cycle
-        reading.infrared = robot.infrared_heard
-        sense_proximity(state.world, i, epuck, moment, reading)
-        sense_blobs(state.world, i, state.robots, state.commands, state.lights, epuck, moment, reading)
-        sense_packets(state.world, i, state.robots, state.commands, state.queue, epuck, moment, reading)
-        sense_steps(robot, epuck, reading)
+        if robot.alive == 1:
+            reading = state.readings[i]
+            reading.identity = robot.identity
+            reading.cycle = cycle
+            reading.infrared = robot.infrared_heard
+            sense_proximity(state.world, i, epuck, derived(robot.noise, cycle), reading)
+            sense_steps(robot, epuck, reading)
+    for i in range(len(state.robots)):
+        robot = state.robots[i]
+        if robot.alive == 1:
+            moment = derived(robot.noise, cycle)
+            sense_blobs(state.world, i, state.robots, state.commands, state.lights, epuck, moment, state.readings[i])
+    for i in range(len(state.robots)):
+        robot = state.robots[i]
+        if robot.alive == 1:
+            moment = derived(robot.noise, cycle)
+            sense_packets(state.world, i, state.robots, state.commands, state.queue, epuck, moment, state.readings[i])
 
 
 @compiled

@@ -13,7 +13,6 @@ from formicarium.systems.sequencing.memory import State, enter
 from formicarium.systems.sequencing.perception import locate_lights, nearest_blob
 
 INSIDE = 0.085  # m, nearer than this to where the lights were, the robot is in the bay
-IN_FRONT = 0.125  # m, farther than this from the lights, it is out of the bay
 
 
 @compiled
@@ -134,13 +133,24 @@ def turning_round(reading, memory, command, table, epuck):
 
 
 @compiled
-def leave(reading, memory, command, table, epuck):
-    """Drive out of the bay until its lights are on behind the robot: steps alone do not tell a blocked robot."""
-    cycle = reading.cycle
+def drive_out(reading, memory, command, table, epuck):
+    """Drive straight on, away from the booth; return how far the robot is out of it (m), 0 as long as that is unknown.
+
+    The booth's lights tell, for steps alone do not tell a blocked robot. When they go dark on the way, somebody
+    else has gone in: then the place where they were last seen counts, carried along by the wheel steps.
+    """
     drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
-    lit = locate_lights(reading, memory.target, memory.colour)
-    out = lit and distance_to(memory.target) >= IN_FRONT
-    if memory.travelled < table.leave_distance or not (out or cycle - memory.since > table.exit_patience):
+    locate_lights(reading, memory.target, memory.colour)
+    sighted = memory.target.seen > memory.since
+    return distance_to(memory.target) - table.lights_depth if sighted else 0.0
+
+
+@compiled
+def leave(reading, memory, command, table, epuck):
+    """Drive out of the bay, then go on as a runner, or try again (U26, U30)."""
+    cycle = reading.cycle
+    out = drive_out(reading, memory, command, table, epuck)
+    if out < table.leave_distance and cycle - memory.since <= table.exit_patience:
         return
     memory.inhibiting_until = cycle + table.inhibition_memory
     if memory.exchange != SILENCE:
@@ -155,21 +165,14 @@ def leave(reading, memory, command, table, epuck):
 
 @compiled
 def stand_off(reading, memory, command, table, epuck):
-    """Drive straight out to the guardian's place, measured by the booth's lights (TS-45, U27).
-
-    When they go dark on the way, the place where they were last seen counts, carried along by the wheel steps;
-    if they never came on, the steps alone.
-    """
+    """Drive straight out to the guardian's place (TS-45, U27)."""
     cycle = reading.cycle
     if is_attended(reading, memory, table):
         memory.count = memory.reported % table.tasks if memory.verdict == 1 else 0
         memory.candidate = 0  # somebody guards it already (U29)
         enter(memory, State.LEAVE, cycle)
         return
-    drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
-    locate_lights(reading, memory.target, memory.colour)
-    sighted = memory.target.seen > memory.since
-    out = distance_to(memory.target) - table.lights_depth if sighted else memory.travelled
+    out = drive_out(reading, memory, command, table, epuck)
     if out >= table.exit_distance or cycle - memory.since > table.exit_patience:
         become_guardian(memory, cycle, memory.verdict == 1, memory.count + 1)
 

@@ -89,6 +89,12 @@ def presses_member(reading, clearance):
 
 
 @compiled
+def blocked(reading, threshold):
+    """Tell whether something stands right ahead."""
+    return max(reading.proximity[0], reading.proximity[7]) > threshold
+
+
+@compiled
 def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
     """Steer along the chain whose nearest place is (x, y)."""
     vx, vy = circle_direction(x, y, table.follow_distance, table.radial_gain)
@@ -96,5 +102,6 @@ def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
         push_x, push_y = repulsion(reading, math.atan2(y, x), table.repulsion_value)
         vx += table.repulsion_weight * push_x
         vy += table.repulsion_weight * push_y
-    speed = 0.0 if presses_member(reading, table.member_clearance) else table.follow_speed
+    waits = presses_member(reading, table.member_clearance) or (at_guardian and blocked(reading, table.queue_value))
+    speed = 0.0 if waits else table.follow_speed
     steer(command, math.atan2(vy, vx), speed, table.steering_gain, table.turn_rate, wheel_distance)

@@ -52,17 +52,17 @@ def alignment_component(alpha, beta):
 
 
 @compiled
-def keep_in_line(predecessor, successor, command, table, tolerance, wheel_distance):
+def keep_in_line(predecessor, successor, command, table, tolerance, share, wheel_distance):
     """Move by the sum of the distance and the alignment component; tell whether both were within tolerance.
 
-    A link rests while both errors are within tolerance and else mends both ("every movement of a link consists
-    of two components", Fig. S6): each component counts in proportion to its error, fully from the tolerance on.
+    It rests while both errors are within ``share`` of their tolerances and else mends both ("every movement of a
+    link consists of two components", Fig. S6): each counts in proportion to its error, fully from the tolerance on.
     With ``separate_tolerances`` a component within its tolerance is left out; then aligning shortens the branch.
     """
     distance_x, distance_y, gap = distance_component(predecessor, successor, table.spacing)
     align_x, align_y, angle = alignment_component(bearing_to(successor), bearing_to(predecessor))
-    far = abs(gap) > tolerance
-    askew = angle > table.alignment_tolerance
+    far = abs(gap) > share * tolerance
+    askew = angle > share * table.alignment_tolerance
     if not far and not askew:
         return True
     distance_weight = min(1.0, abs(gap) / tolerance)
@@ -78,6 +78,18 @@ def keep_in_line(predecessor, successor, command, table, tolerance, wheel_distan
     speed = table.member_speed * min(1.0, urgency)
     shift(command, math.atan2(y, x), speed, table.steering_gain, table.turn_rate, wheel_distance)
     return False
+
+
+@compiled
+def adjust(memory, command, table, cycle, wheel_distance):
+    """Stay while within tolerance; once out of it, mend until well within (TS-69)."""
+    share = table.mending_share if memory.state == State.MEND else 1.0
+    tolerance = table.spacing_tolerance
+    if keep_in_line(memory.predecessor, memory.successor, command, table, tolerance, share, wheel_distance):
+        if memory.state == State.MEND:
+            enter(memory, State.STAY, cycle)
+    elif memory.state == State.STAY:
+        enter(memory, State.MEND, cycle)
 
 
 @compiled
@@ -118,14 +130,8 @@ def link(reading, memory, command, table, epuck):
         track_neighbours(reading, memory, table)
         cycle = reading.cycle
         if in_view(memory.predecessor, cycle, table) and in_view(memory.successor, cycle, table):
-            keep_in_line(
-                memory.predecessor,
-                memory.successor,
-                command,
-                table,
-                table.spacing_tolerance,
-                epuck.wheel_distance,
-            )
+            adjust(memory, command, table, cycle, epuck.wheel_distance)
         if hear_established(reading, memory):
             memory.established = 1
+            enter(memory, State.STAY, cycle)
     speak(reading, memory, command)

@@ -45,6 +45,7 @@ class State(IntEnum):
     DOCK = 15  # aligns with a guardian
     # link, and guardian that is no tail
     STAY = 16
+    MEND = 17  # adjusts its place
 
 
 # What a robot has heard of one task's guardian.

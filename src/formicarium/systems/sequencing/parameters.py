@@ -103,6 +103,12 @@ class BehaviourTable(Table):
     member_clearance: float = number(
         0.085, "m", "a runner does not drive at a chain member nearer than this [choice]", ge=0
     )
+    queue_value: float = number(
+        0.5,
+        "1",
+        "proximity ahead at which a runner beside a guardian waits: a queue that pushes displaces it [choice]",
+        ge=0,
+    )
     lost_after: int = number(20, "cycles", "a runner that sees no chain for so long walks at random U34", ge=1)
     decide_distance: float = number(0.30, "m", "a runner heeds the guardian within this TS-100", gt=0)
     advert_memory: int = number(10, "cycles", "an advertisement counts for so long [choice]", ge=1)
@@ -138,7 +144,7 @@ class BehaviourTable(Table):
     inhibition_memory: int = number(
         30, "cycles", "inhibited robots resume after so long without a message TS-106", ge=1
     )
-    inhibition_leave: float = number(0.2, "1", "probability to leave instead TS-106", ge=0, le=1)
+    inhibition_leave: float = number(0.8, "1", "probability to leave instead; TS-106 says 0.2 [tuned]", ge=0, le=1)
     inhibition_clearance: float = number(0.25, "m", "an inhibited robot backs off to this TS-106", ge=0)
     inhibition_echo: int = number(10, "cycles", "a guardian repeats an inhibition for so long [choice]", ge=0)
 
@@ -156,6 +162,14 @@ class BehaviourTable(Table):
     spacing: float = number(0.18, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
     spacing_tolerance: float = number(0.05, "m", "[paper]", ge=0)
     alignment_tolerance: float = number(degrees(10), "rad", "[paper]", ge=0)
+    mending_share: float = number(
+        0.15,
+        "1",
+        "a link out of tolerance mends its errors down to this share of the tolerances: else every link keeps "
+        "nearly 10 degrees and a long branch curls up [tuned]",
+        ge=0,
+        le=1,
+    )
     separate_tolerances: bool = number(
         False, "1", "a link mends only the error that is out of tolerance, not both [choice]"
     )
@@ -173,7 +187,7 @@ class BehaviourTable(Table):
     # tail
     position_band: float = number(0.02, "m", "dead band of the tail's distance servo [probe]", ge=0)
     position_hold: int = number(10, "cycles", "in place so long before it invites TS-77", ge=0)
-    sweep_idle: int = number(120, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
+    sweep_idle: int = number(60, "cycles", "without a request, then the branch sweeps U12 [tuned]", ge=1)
     sweep_angle: float = number(
         degrees(4),
         "rad",
@@ -184,10 +198,13 @@ class BehaviourTable(Table):
         15, "cycles", "but no longer than this, or the tip of a long branch curls up [tuned, U13]", ge=1
     )
     sweep_pause: int = number(40, "cycles", "U13", ge=0)
+    sweep_pause_per_link: int = number(
+        5, "cycles", "and so much more for every link of the branch, which have to realign [tuned, U13]", ge=0
+    )
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
     dock_gaps: float = number(0.40, "m", "if both gaps add up to more, recruit one more U21", gt=0)
-    dock_band: float = number(0.02, "m", "tolerance of the gaps while docking [probe]", ge=0)
+    dock_band: float = number(0.03, "m", "tolerance of the gaps while docking: twice the camera's noise [choice]", ge=0)
     dock_hold: int = number(10, "cycles", "aligned so long, then it hands over U20", ge=0)
     dock_patience: int = number(200, "cycles", "or it hands over anyway [probe]", ge=1)
     cnd_monotone: bool = number(True, "1", "a late notification does not lower CND TS-60")

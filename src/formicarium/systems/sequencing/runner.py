@@ -18,7 +18,7 @@ from formicarium.systems.sequencing.booth_visit import (
     turning_round,
     unattended,
 )
-from formicarium.systems.sequencing.following import follow_chain, reference_point
+from formicarium.systems.sequencing.following import follow_chain, presses_member, reference_point
 from formicarium.systems.sequencing.guardian import qualifies
 from formicarium.systems.sequencing.member import begin_message, send
 from formicarium.systems.sequencing.memory import Role, State, enter
@@ -184,22 +184,25 @@ def may_visit(memory, cycle, table):
 
 
 @compiled
-def sees_task(reading):
-    """Tell whether a booth or a guardian is in view: the radio's range alone is too vague to tell who is near."""
-    for n in range(reading.blob_count):
-        colour = reading.blobs[n].colour
-        if Colour.OFF < colour <= Colour.CYAN:
-            return True
-    return False
+def nearest_task(reading):
+    """Return the index of the nearest booth or guardian in view, -1 if there is none.
+
+    The radio's range alone is too vague to tell who is near.
+    """
+    for n in range(reading.blob_count):  # nearest first
+        if Colour.OFF < reading.blobs[n].colour <= Colour.CYAN:
+            return n
+    return -1
 
 
 @compiled
-def respond_to_inhibition(reading, memory, table):
-    """Keep clear of the task, or with a certain probability leave the area (TS-105, TS-106)."""
+def respond_to_inhibition(reading, memory, table, task):
+    """Keep clear of the task, or with a certain probability turn away from it and leave (TS-105, TS-106)."""
     cycle = reading.cycle
     if draw(memory) < table.inhibition_leave:
         memory.wander_until = cycle + table.refuse_time
-        begin_turn(memory, table, cycle)
+        memory.turn_left = wrapped(reading.blobs[task].bearing + math.pi)
+        enter(memory, State.TURN, cycle)
     else:
         enter(memory, State.INHIBITED, cycle)
 
@@ -231,7 +234,8 @@ def keep_clear(reading, memory, command, table, epuck):
         follow(reading, memory, command, table, epuck)
     else:
         away = wrapped(reading.blobs[guardian].bearing + math.pi)
-        steer(command, away, table.follow_speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
+        speed = 0.0 if presses_member(reading, table.member_clearance) else table.follow_speed
+        steer(command, away, speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
 
 
 @compiled
@@ -247,8 +251,9 @@ def roam(reading, memory, command, table, epuck):
         enter(memory, State.JOIN, cycle)
         return
     busy = wandering or memory.notifying == 1 or cycle < memory.inhibiting_until
-    if memory.inhibition_ahead == cycle and not busy and sees_task(reading):
-        respond_to_inhibition(reading, memory, table)
+    task = nearest_task(reading)
+    if memory.inhibition_ahead == cycle and not busy and task >= 0:
+        respond_to_inhibition(reading, memory, table, task)
     elif memory.state != State.FOLLOW and not wandering and meets_chain(reading, memory, table):
         enter(memory, State.FOLLOW, cycle)
     if memory.state == State.WALK:

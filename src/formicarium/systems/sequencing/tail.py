@@ -137,6 +137,12 @@ def burst(memory, table):
 
 
 @compiled
+def realigning(memory, table):
+    """Return how long the branch is given to realign, cycles: a movement of the tip runs through it link by link."""
+    return table.sweep_pause + table.sweep_pause_per_link * memory.link_number
+
+
+@compiled
 def sweep(reading, memory, command, table, epuck):
     """Move slowly to the left of the branch for one burst (TS-84), then pause."""
     cycle = reading.cycle
@@ -146,7 +152,7 @@ def sweep(reading, memory, command, table, epuck):
         enter(memory, State.DOCK, cycle)
     elif cycle - memory.since >= burst(memory, table):
         memory.requested = cycle
-        memory.sweep_due = table.sweep_pause
+        memory.sweep_due = realigning(memory, table)
         enter(memory, State.OPEN, cycle)
 
 
@@ -154,15 +160,11 @@ def sweep(reading, memory, command, table, epuck):
 def dock(reading, memory, command, table, epuck):
     """Align with predecessor and guardian; recruit one more robot if the gap is too wide (TS-87)."""
     cycle = reading.cycle
-    if hear_guardian(reading, memory):
-        become_link(memory, cycle)
-        memory.established = 1
-        return
     if cycle - memory.successor.seen > table.track_lost:
         memory.chosen = 0
         memory.successor.known = 0
         memory.requested = cycle
-        memory.sweep_due = table.sweep_pause
+        memory.sweep_due = realigning(memory, table)
         enter(memory, State.OPEN, cycle)
         return
     if recruits_for_gap(memory, table):
@@ -170,7 +172,9 @@ def dock(reading, memory, command, table, epuck):
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
         hear_requests(reading, memory, table)
         return
-    if not keep_in_line(memory.predecessor, memory.successor, command, table, table.dock_band, epuck.wheel_distance):
+    if not keep_in_line(
+        memory.predecessor, memory.successor, command, table, table.dock_band, 1.0, epuck.wheel_distance
+    ):
         memory.settled = cycle
 
 
@@ -211,7 +215,10 @@ def tail(reading, memory, command, table, epuck):
     cycle = reading.cycle
     command.colour = Colour.MAGENTA
     track_neighbours(reading, memory, table)
-    if memory.state != State.DOCK and relieved(reading, memory, table):
+    if hear_guardian(reading, memory):
+        become_link(memory, cycle)
+        memory.established = 1
+    elif memory.state != State.DOCK and relieved(reading, memory, table):
         become_link(memory, cycle)
     elif memory.state == State.POSITION:
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
