@@ -19,6 +19,7 @@ from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
 from formicarium.commands.errors import UserError
 from formicarium.commands.run import run
+from formicarium.commands.study import study
 from formicarium.commands.systems import systems
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
@@ -30,6 +31,7 @@ Start here:
     formicarium run mark-i3 --runs 30       thirty runs on all cores
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
+    formicarium study sequencing            a published study again, beside the paper's figures
 """
 
 app = App(
@@ -44,6 +46,7 @@ app.command(run)
 app.command(systems)
 app.command(describe)
 app.command(campaign)
+app.command(study)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
