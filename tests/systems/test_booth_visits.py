@@ -21,6 +21,7 @@ from systems.one_robot import OneRobot
 from systems.stage import add_packet, guardian, put, put_before_booth, step, wide_stage, written
 
 SURE = {"booth": {"exchange_failure": 0.0}}
+VISIT = 150  # cycles, a visit takes no longer: 2.6 s in, 7 s of task, 1.7 s to turn round, 2.5 s out, and some reserve
 
 
 def booth_of(state, place: int) -> int:
@@ -138,7 +139,7 @@ def test_no_task_is_done_through_a_blocked_mouth():
 def test_a_task_done_in_the_right_order_counts_and_is_reported():
     state = wide_stage(1, setting=0, **SURE)
     send_in(state, 0, booth_of(state, 0), 0)
-    step(state, 120)
+    step(state, VISIT)
     done = of(drain(state), EventKind.EXECUTED)
     assert done[["value", "detail"]].tolist() == [(1, 1)]
     m = state.memories[0]
@@ -149,7 +150,7 @@ def test_a_robot_that_lies_about_its_count_is_refused_and_not_counted():
     """T18: it claims the last number of the sequence at the last task without having done the others."""
     state = wide_stage(1, setting=0, **SURE)
     send_in(state, 0, booth_of(state, 2), 2)
-    step(state, 120)
+    step(state, VISIT)
     events = drain(state)
     executed = of(events, EventKind.EXECUTED)
     assert executed[["value", "detail"]].tolist() == [(0, 3)]
@@ -163,7 +164,7 @@ def test_an_honest_robot_is_counted_by_the_referee_whatever_it_believes():
     state = wide_stage(1, setting=0, **SURE)
     for place in range(3):
         send_in(state, 0, booth_of(state, place), place)
-        step(state, 120)
+        step(state, VISIT)
     events = drain(state)
     assert of(events, EventKind.SEQUENCE)["value"].tolist() == [1]
     assert not np.isin(events["kind"], (EventKind.PROTOCOL_FAULT, EventKind.DISAGREEMENT)).any()
@@ -174,7 +175,7 @@ def test_the_first_execution_of_a_future_guardian_never_completes_a_sequence():
     state = wide_stage(1, setting=0, **SURE)
     for place in range(3):
         send_in(state, 0, booth_of(state, place), place, candidate=int(place == 2))
-        step(state, 120)
+        step(state, VISIT)
     events = drain(state)
     assert of(events, EventKind.EXECUTED)[["value", "detail"]].tolist() == [(1, 1), (1, 2), (1, 3)]
     assert len(of(events, EventKind.SEQUENCE)) == 0 and state.chain[0].sequences == 0
