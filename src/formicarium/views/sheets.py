@@ -88,7 +88,7 @@ def _draw_panel(axes: Axes, panel: Panel, shades: list, *, names_up: bool) -> No
         axes.set_xticks(range(len(panel.ticks)), panel.ticks)
         axes.set_xlim(-0.6, len(panel.ticks) - 0.4)
     if panel.boxes:
-        axes.set_ylim(0, 1.08 * max(max(box.values) for box in panel.boxes))
+        axes.set_ylim(0, 1.08 * max(1.0, *(max(box.values) for box in panel.boxes)))
         axes.yaxis.set_major_locator(MaxNLocator(6, integer=True))
     elif panel.end is not None:
         axes.set(xlim=(0, panel.end), ylim=(0, 1.03))
