@@ -82,7 +82,11 @@ def test_a_study_as_the_paper_tells_it_is_compatible():
 def test_what_is_worse_is_called_worse():
     crowded = study(lambda _, level: 10 if level >= 20 else 28)
     assert verdicts(crowded)["R11a"] == verdicts(crowded)["R11c"] == "worse"
-    assert "20 of 20 cells" in finding(crowded, "R11c")
+    told = "+100 %: 50/150 against 140/150 in 5 settings"
+    assert told in finding(crowded, "R11c")
+    slightly = study(lambda _, level: 23 if level == 100 else 28)  # clear only in all settings together
+    assert "significantly lower in 0 of them" in finding(slightly, "R11c")
+    assert verdicts(slightly)["R11c"] == "worse"
     assert verdicts(study(lambda setting, _: 28 - 6 * setting))["R9"] == "worse"
     bent = [cell(k, 0, 28, members=members) for k, members in enumerate((16, 16, 17, 18, 60))]
     assert verdicts(bent)["R10"] == "worse"

@@ -8,7 +8,7 @@ from formicarium.statistics.compare import fisher
 from formicarium.statistics.effects import holm
 from formicarium.statistics.intervals import wilson
 from formicarium.statistics.lines import fit_line
-from formicarium.studies.cells import PAPER_SUCCESS, StudyCell, by_setting, level_name
+from formicarium.studies.cells import LEVELS, PAPER_SUCCESS, StudyCell, by_setting, level_name
 
 LEAST_RUNS = 10  # of a cell that is tested; fewer would find anything compatible
 LEAST_R_SQUARED = 0.98  # "linear"; the paper gives no number
@@ -109,28 +109,23 @@ def _fewer_degrade(study: Study) -> tuple[str, str]:
 
 
 def _robust(study: Study) -> tuple[str, str]:
-    pairs = [
-        (k, cell, levels[0])
-        for k, levels in study.items()
-        for level, cell in levels.items()
-        if level >= 40 and 0 in levels
-    ]
-    if not pairs:
+    said, levels, together, lost = [], [], [], 0
+    for level in (level for level in LEVELS if level >= 40):
+        _, higher, p_values, pooled = _against_default(study, level)
+        if not pooled:
+            continue
+        down = [p_value < ALPHA and not up for up, p_value in zip(higher, p_values)]
+        levels.append(pooled[0] / pooled[1] > pooled[2] / pooled[3])
+        together.append(fisher(*pooled).p_value)
+        lost += sum(down)
+        said.append(
+            f"{level_name(level)}: {pooled[0]}/{pooled[1]} against {pooled[2]}/{pooled[3]} in {len(down)} settings, "
+            f"p {together[-1]:.2g}, significantly lower in {sum(down)} of them"
+        )
+    if not said:
         return "no setting has runs with +40 % or more and with the default", "not testable"
-    p_values = holm([fisher(a.successes, len(a.runs), b.successes, len(b.runs)).p_value for _, a, b in pairs])
-    higher = [a.successes / len(a.runs) > b.successes / len(b.runs) for _, a, b in pairs]
-    lost = [
-        f"setting {k} at {level_name(a.level)} ({a.successes}/{len(a.runs)} against {b.successes}/{len(b.runs)})"
-        for (k, a, b), up, p_value in zip(pairs, higher, p_values)
-        if p_value < ALPHA and not up
-    ]
-    k, least, _ = min(pairs, key=lambda pair: pair[1].successes / len(pair[1].runs))
-    finding = (
-        f"{len(lost)} of {len(pairs)} cells lie significantly below their default (Fisher, Holm)"
-        f"{': ' * bool(lost)}{', '.join(lost)}; the lowest is setting {k} at {level_name(least.level)} with "
-        f"{least.successes}/{len(least.runs)}"
-    )
-    return finding, "worse" if lost else "compatible"
+    worse = lost or _verdict(levels, holm(together)) == "worse"
+    return f"{'; '.join(said)} (Fisher)", "worse" if worse else "compatible"
 
 
 def _same(study: Study) -> tuple[str, str]:

@@ -93,7 +93,7 @@ def figure_s18(cells: Sequence[StudyCell]) -> Sheet:
     line = None
     if len(measured) > 2:
         fit = fit_line([side for side, _ in measured], [sum(values) / len(values) for _, values in measured])
-        line = (fit, f"{fit.intercept:.1f} + {fit.slope:.1f} per m, R² = {fit.r_squared:.3f} (means)")
+        line = (fit, f"{fit.slope:.1f} × side {fit.intercept:+.1f} through the means, R² = {fit.r_squared:.3f}")
     complete, runs = sum(len(values) for _, values in measured), sum(len(cell.runs) for cell in own)
     note = f"{complete} completed chains of {runs} runs, {len(own)} arenas" if runs else "no runs yet"
     panel = Panel("", note, "side of the arena (m)", "chain members at completion", boxes=boxes, line=line)
