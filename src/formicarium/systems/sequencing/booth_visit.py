@@ -12,6 +12,7 @@ from formicarium.systems.sequencing.guardian import become_guardian
 from formicarium.systems.sequencing.memory import State, enter
 from formicarium.systems.sequencing.perception import locate_lights, nearest_blob
 
+UNSEEN_STEPS = 0.25  # share of its steps that a robot has come forward whose booth stays dark [choice]
 INSIDE = 0.085  # m, nearer than this to where the lights were, the robot is in the bay
 
 
@@ -128,21 +129,24 @@ def turning_round(reading, memory, command, table, epuck):
     if memory.turn_left > 0.0:
         drive(command, 0.0, table.turn_rate, epuck.wheel_distance)
         return
+    memory.target.known = 0  # until the lights come on behind the robot
     done = memory.exchange == SUCCESS or memory.exchange == FAILURE
     enter(memory, State.STAND_OFF if done and memory.candidate == 1 else State.LEAVE, reading.cycle)
 
 
 @compiled
 def drive_out(reading, memory, command, table, epuck):
-    """Drive straight on, away from the booth; return how far the robot is out of it (m), 0 as long as that is unknown.
+    """Drive straight on, away from the booth; return how far the robot is from the middle of the bay (m).
 
-    The booth's lights tell, for steps alone do not tell a blocked robot. When they go dark on the way, somebody
-    else has gone in: then the place where they were last seen counts, carried along by the wheel steps.
+    The booth's lights tell. When they go dark on the way, somebody else has gone in: then the place where they were
+    last seen counts, carried along by the wheel steps. As long as they have not come on, the robot is most likely
+    blocked inside and its wheels slip: its steps count for little.
     """
     drive(command, table.approach_speed, 0.0, epuck.wheel_distance)
     locate_lights(reading, memory.target, memory.colour)
-    sighted = memory.target.seen > memory.since
-    return distance_to(memory.target) - table.lights_depth if sighted else 0.0
+    if memory.target.known == 0:
+        return UNSEEN_STEPS * memory.travelled
+    return distance_to(memory.target) - table.lights_depth
 
 
 @compiled

@@ -89,19 +89,26 @@ def presses_member(reading, clearance):
 
 
 @compiled
-def blocked(reading, threshold):
+def stands_ahead(reading, threshold):
     """Tell whether something stands right ahead."""
     return max(reading.proximity[0], reading.proximity[7]) > threshold
 
 
 @compiled
-def follow_chain(reading, command, x, y, at_guardian, table, wheel_distance):
-    """Steer along the chain whose nearest place is (x, y)."""
+def queues(reading, memory, table):
+    """Tell whether a runner beside a guardian waits for who stands right ahead; its patience has an end."""
+    memory.queued = memory.queued + 1 if stands_ahead(reading, table.queue_value) else 0
+    return 0 < memory.queued <= table.queue_patience
+
+
+@compiled
+def follow_chain(reading, memory, command, x, y, beside_guardian, table, wheel_distance):
+    """Steer along the chain whose nearest place is (x, y); beside a guardian walls do not repel, but queues wait."""
     vx, vy = circle_direction(x, y, table.follow_distance, table.radial_gain)
-    if not at_guardian:  # the wall beside a guardian is no obstacle
+    if not beside_guardian:
         push_x, push_y = repulsion(reading, math.atan2(y, x), table.repulsion_value)
         vx += table.repulsion_weight * push_x
         vy += table.repulsion_weight * push_y
-    waits = presses_member(reading, table.member_clearance) or (at_guardian and blocked(reading, table.queue_value))
+    waits = presses_member(reading, table.member_clearance) or (beside_guardian and queues(reading, memory, table))
     speed = 0.0 if waits else table.follow_speed
     steer(command, math.atan2(vy, vx), speed, table.steering_gain, table.turn_rate, wheel_distance)

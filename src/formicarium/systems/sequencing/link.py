@@ -53,7 +53,7 @@ def alignment_component(alpha, beta):
 
 @compiled
 def keep_in_line(predecessor, successor, command, table, tolerance, share, wheel_distance):
-    """Move by the sum of the distance and the alignment component; tell whether both were within tolerance.
+    """Move by the sum of the distance and the alignment component; tell whether there was nothing to mend.
 
     It rests while both errors are within ``share`` of their tolerances and else mends both ("every movement of a
     link consists of two components", Fig. S6): each counts in proportion to its error, fully from the tolerance on.

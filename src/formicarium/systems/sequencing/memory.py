@@ -27,7 +27,7 @@ class State(IntEnum):
 
     # runner
     WALK = 0  # random walk, straight on
-    TURN = 1  # random walk, turning on the spot
+    TURN = 1  # turning on the spot, by chance or away from a task
     FOLLOW = 2  # along the chain
     APPROACH = 3  # towards a booth and into it
     EXCHANGE = 4  # in the bay, waiting for the verdict
@@ -43,9 +43,8 @@ class State(IntEnum):
     OFFER = 13  # has chosen one
     SWEEP = 14  # moves the branch's tip to the left
     DOCK = 15  # aligns with a guardian
-    # link, and guardian that is no tail
-    STAY = 16
-    MEND = 17  # adjusts its place
+    STAY = 16  # link, and guardian that is no tail
+    MEND = 17  # link that adjusts its place
 
 
 # What a robot has heard of one task's guardian.
@@ -83,6 +82,7 @@ MEMORY = np.dtype(
         ("count", "i8"),  # CNT
         ("turn_left", "f8"),  # rad still to turn
         ("travelled", "f8"),  # m since the state began
+        ("queued", "i8"),  # cycles for which it has waited beside a guardian for who stands ahead
         ("chain_seen", "i8"),  # cycle at which a chain member was seen last
         ("colour", "i8"),  # task approached, being done or guarded
         ("candidate", "i8"),  # 1 if it goes on to guard that task

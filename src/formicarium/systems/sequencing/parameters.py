@@ -109,6 +109,8 @@ class BehaviourTable(Table):
         "proximity ahead at which a runner beside a guardian waits: a queue that pushes displaces it [choice]",
         ge=0,
     )
+    queue_patience: int = number(600, "cycles", "but no longer than this: who stands ahead may be dead [choice]", ge=0)
+    guardian_vicinity: float = number(0.25, "m", "a runner this near to a guardian is beside it [choice]", ge=0)
     lost_after: int = number(20, "cycles", "a runner that sees no chain for so long walks at random U34", ge=1)
     decide_distance: float = number(0.30, "m", "a runner heeds the guardian within this TS-100", gt=0)
     advert_memory: int = number(10, "cycles", "an advertisement counts for so long [choice]", ge=1)
@@ -123,11 +125,11 @@ class BehaviourTable(Table):
     exchange_patience: int = number(100, "cycles", "a robot in the bay waits so long for the verdict [choice]", ge=1)
     retry_pause: int = number(30, "cycles", "before it enters again after a failed exchange U30", ge=0)
     retries: int = number(3, "1", "U30", ge=0)
-    leave_distance: float = number(0.10, "m", "a visitor drives so far out of the bay U26", gt=0)
-    exit_distance: float = number(0.25, "m", "a future guardian drives so far out [paper]", gt=0)
+    leave_distance: float = number(0.10, "m", "a visitor drives so far from the middle of the bay U26", gt=0)
+    exit_distance: float = number(0.25, "m", "a future guardian drives so far from the middle of the bay [paper]", gt=0)
     lights_depth: float = number(0.035, "m", "of a booth's lights behind its middle [model]", ge=0)
     exit_patience: int = number(
-        600, "cycles", "a future guardian that is blocked so long stays where it is [choice]", ge=1
+        600, "cycles", "who is blocked on its way out for so long stays where it is, or goes on [choice]", ge=1
     )
     notify_patience: int = number(300, "cycles", "a runner repeats its notification at most so long [probe]", ge=1)
     notify_least: int = number(30, "cycles", "and at least so long U54", ge=0)
@@ -151,7 +153,9 @@ class BehaviourTable(Table):
     # joining the chain
     join_distance: float = number(0.25, "m", "a runner answers an invitation within this TS-82", gt=0)
     request_patience: int = number(30, "cycles", "TS-82", ge=1)
-    refuse_time: int = number(100, "cycles", "then it ignores invitations, or booths, for so long TS-82", ge=0)
+    refuse_time: int = number(
+        100, "cycles", "then it ignores invitations, booths, or an inhibited place for so long TS-82", ge=0
+    )
     offer_patience: int = number(30, "cycles", "TS-82", ge=1)
     sector_half_width: float = number(degrees(30), "rad", "of the invited sector U10", gt=0)
     sector_tolerance: float = number(
@@ -167,7 +171,7 @@ class BehaviourTable(Table):
         "1",
         "a link out of tolerance mends its errors down to this share of the tolerances: else every link keeps "
         "nearly 10 degrees and a long branch curls up [tuned]",
-        ge=0,
+        gt=0,
         le=1,
     )
     separate_tolerances: bool = number(

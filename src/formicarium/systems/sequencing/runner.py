@@ -56,7 +56,8 @@ def obstructed(reading, threshold):
 @compiled
 def walk(reading, memory, command, table, epuck):
     """Random walk: straight on until something is in the way, or by chance (U2)."""
-    if obstructed(reading, table.obstacle_value) or draw(memory) < table.walk_turn_probability:
+    in_the_way = obstructed(reading, table.obstacle_value) or presses_member(reading, table.member_clearance)
+    if in_the_way or draw(memory) < table.walk_turn_probability:
         begin_turn(memory, table, reading.cycle)
     else:
         drive(command, table.walk_speed, 0.0, epuck.wheel_distance)
@@ -64,7 +65,7 @@ def walk(reading, memory, command, table, epuck):
 
 @compiled
 def turn(reading, memory, command, table, epuck):
-    """Random walk: turn on the spot."""
+    """Turn on the spot, then walk."""
     before = memory.turn_left
     memory.turn_left -= memory.odometer.turn
     if before * memory.turn_left <= 0.0:
@@ -85,8 +86,8 @@ def follow(reading, memory, command, table, epuck):
         drive(command, table.follow_speed, 0.0, epuck.wheel_distance)
         return
     memory.chain_seen = cycle
-    at_guardian = nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.inhibition_clearance) >= 0
-    follow_chain(reading, command, x, y, at_guardian, table, epuck.wheel_distance)
+    beside_guardian = nearest_blob(reading, Colour.CYAN, 0.0, math.pi, table.guardian_vicinity) >= 0
+    follow_chain(reading, memory, command, x, y, beside_guardian, table, epuck.wheel_distance)
 
 
 @compiled
@@ -196,9 +197,13 @@ def nearest_task(reading):
 
 
 @compiled
-def respond_to_inhibition(reading, memory, table, task):
-    """Keep clear of the task, or with a certain probability turn away from it and leave (TS-105, TS-106)."""
+def respond_to_inhibition(reading, memory, command, table, task):
+    """Keep clear of the task, or with a certain probability turn away from it and leave (TS-105, TS-106).
+
+    ``task`` is the index of the nearest booth or guardian in view.
+    """
     cycle = reading.cycle
+    stop(command)
     if draw(memory) < table.inhibition_leave:
         memory.wander_until = cycle + table.refuse_time
         memory.turn_left = wrapped(reading.blobs[task].bearing + math.pi)
@@ -253,8 +258,9 @@ def roam(reading, memory, command, table, epuck):
     busy = wandering or memory.notifying == 1 or cycle < memory.inhibiting_until
     task = nearest_task(reading)
     if memory.inhibition_ahead == cycle and not busy and task >= 0:
-        respond_to_inhibition(reading, memory, table, task)
-    elif memory.state != State.FOLLOW and not wandering and meets_chain(reading, memory, table):
+        respond_to_inhibition(reading, memory, command, table, task)
+        return
+    if memory.state != State.FOLLOW and not wandering and meets_chain(reading, memory, table):
         enter(memory, State.FOLLOW, cycle)
     if memory.state == State.WALK:
         walk(reading, memory, command, table, epuck)

@@ -137,7 +137,7 @@ def burst(memory, table):
 
 
 @compiled
-def realigning(memory, table):
+def pause_to_realign(memory, table):
     """Return how long the branch is given to realign, cycles: a movement of the tip runs through it link by link."""
     return table.sweep_pause + table.sweep_pause_per_link * memory.link_number
 
@@ -152,7 +152,7 @@ def sweep(reading, memory, command, table, epuck):
         enter(memory, State.DOCK, cycle)
     elif cycle - memory.since >= burst(memory, table):
         memory.requested = cycle
-        memory.sweep_due = realigning(memory, table)
+        memory.sweep_due = pause_to_realign(memory, table)
         enter(memory, State.OPEN, cycle)
 
 
@@ -164,7 +164,7 @@ def dock(reading, memory, command, table, epuck):
         memory.chosen = 0
         memory.successor.known = 0
         memory.requested = cycle
-        memory.sweep_due = realigning(memory, table)
+        memory.sweep_due = pause_to_realign(memory, table)
         enter(memory, State.OPEN, cycle)
         return
     if recruits_for_gap(memory, table):
