@@ -94,7 +94,7 @@ class Puppets:
             yield
         self.events.append(drain(state))
 
-    def visit(self, robot, task, claim, *, alias=None, instead=None, cycles=70):
+    def visit(self, robot, task, claim, *, alias=None, instead=None, cycles=100):
         """Let a robot do task number ``task`` of the correct order, claiming what it likes.
 
         Args:
@@ -209,7 +209,7 @@ def test_no_task_done_in_absence_counts():
 def test_a_visit_cut_short_is_no_execution():
     puppets = Puppets()
     for task in range(3):
-        puppets.visit(0, task, task + 1, cycles=45)
+        puppets.visit(0, task, task + 1, cycles=65)
     assert puppets.count(EventKind.EXECUTED) == 0 and puppets.sequences == 0
     assert puppets.count(EventKind.VISIT, value=1) == 3
 
@@ -239,7 +239,7 @@ def test_every_execution_of_a_trial_was_a_robot_in_a_bay_for_the_task_time(lying
     for event in tasks:
         i, cycle = index[int(event["robot"])], int(event["cycle"])
         b = int(np.flatnonzero(state.booths.colour == event["subject"])[0])
-        assert inside[cycle - 50 : cycle + 1, i, b].all()
+        assert inside[cycle - 70 : cycle + 1, i, b].all()
         done.setdefault(i, []).append(int(event["subject"]))
         if done[i][-3:] == order:
             done[i].clear()

@@ -9,7 +9,7 @@ from formicarium.angles import wrapped
 from formicarium.control.odometry import place
 from formicarium.robots.infrared import SUCCESS
 from formicarium.robots.records import Colour
-from formicarium.systems.sequencing.booth_visit import begin_visit
+from formicarium.systems.sequencing.booth_visit import UNSEEN_STEPS, begin_visit
 from formicarium.systems.sequencing.memory import Role, State
 from formicarium.systems.sequencing.parameters import BehaviourTable
 from systems.one_robot import EPUCK, OneRobot
@@ -316,15 +316,18 @@ def slip(robot: OneRobot, metres: float) -> None:
 
 @pytest.mark.parametrize("lit", [False, True])
 def test_a_robot_whose_wheels_slip_in_the_bay_is_still_inside(lit):
-    """Dark or lit, the lights tell: steps alone do not tell a blocked robot."""
+    """The lights tell; as long as they stay dark, steps count a quarter, for a blocked robot's wheels slip."""
     robot = OneRobot().turn_to(State.LEAVE)
     robot.memory.colour, robot.memory.exchange = Colour.RED, SUCCESS
-    place(robot.memory.target, 0.06, math.pi, robot.reading.cycle - 100)
-    for _ in range(int(TABLE.exit_patience)):
-        slip(robot, 0.004)
+    robot.memory.target.known = 0
+    a_cycle = 0.004  # m
+    patience = TABLE.exit_patience if lit else TABLE.leave_distance / (UNSEEN_STEPS * a_cycle)
+    for _ in range(int(0.95 * patience)):
+        slip(robot, a_cycle)
         if lit:
             robot.see((Colour.RED, 0.09, math.pi))
         assert robot.live().memory.state == State.LEAVE and robot.motion()[0] > 0.0
-    for _ in range(2):
+    for _ in range(int(0.1 * patience)):
+        slip(robot, a_cycle)
         robot.live()
     assert robot.memory.state != State.LEAVE  # it gives up in the end
