@@ -39,7 +39,7 @@ def clean(
     from formicarium.campaigns.cleaning import clean_up, leftovers
     from formicarium.campaigns.ledger import Ledger
     from formicarium.campaigns.writer import Writer
-    from formicarium.commands.campaign.screen import wide_console
+    from formicarium.commands.campaign.screen import say, wide_console
     from formicarium.commands.campaign.standing import other_rows
     from formicarium.commands.campaign.study import Overrides, open_study
     from formicarium.commands.errors import UserError
@@ -51,16 +51,13 @@ def clean(
     ledger.refresh()
     console = wide_console()
 
-    def say(text: str) -> None:
-        console.print(text, highlight=False, soft_wrap=True, markup=False)
-
     for reason, count in other_rows(study, ledger).items():
-        say(f"{count} rows {reason}")
+        say(console, f"{count} rows {reason}")
     found = leftovers(ledger, study.jobs)
-    say(f"{found.rows} rows and {len(found.files)} files can go, {len(ledger.done) - found.rows} rows stay")
+    say(console, f"{found.rows} rows and {len(found.files)} files can go, {len(ledger.done) - found.rows} rows stay")
     if not yes:
-        say("nothing was removed; do it with --yes")
+        say(console, "nothing was removed; do it with --yes")
         return
     with Writer(ledger, study.manifest, study.jobs) as writer:
         clean_up(writer, study.jobs)
-    say("removed")
+    say(console, "removed")

@@ -49,3 +49,8 @@ def _interval(effect: "Effect", percent: bool = False) -> str:
     words = [f"{number:+.0%}" if percent else f"{number:.2f}" for number in effect]
     value = words[0] if math.isfinite(effect.value) and (percent or effect.value > 0) else "-"
     return f"{value} ({words[1]} to {words[2]})"
+
+
+def say(console: Console, text: str) -> None:
+    """Print a line as it is: no markup, no wrapping."""
+    console.print(text, highlight=False, soft_wrap=True, markup=False)

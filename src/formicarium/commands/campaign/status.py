@@ -38,7 +38,7 @@ def status(
     """
     from formicarium.campaigns import claims
     from formicarium.campaigns.ledger import Ledger
-    from formicarium.commands.campaign.screen import wide_console
+    from formicarium.commands.campaign.screen import say, wide_console
     from formicarium.commands.campaign.standing import cells_table, other_rows, standing_of
     from formicarium.commands.campaign.study import Overrides, open_study
 
@@ -51,27 +51,28 @@ def status(
     done, failed = sum(cell.done for cell in cells), sum(cell.failed for cell in cells)
     working = claims.writers(study.folder / "writers")
 
-    def say(text: str) -> None:
-        console.print(text, highlight=False, soft_wrap=True, markup=False)
-
     say(
+        console,
         f"{study.design.name}: {done} of {total} runs done, {failed} failed, {total - done - failed} missing; "
-        + (f"{working} at work on it now" if working else "nobody is at work on it")
+        + (f"{working} at work on it now" if working else "nobody is at work on it"),
     )
     console.print(cells_table(study, cells))
     others = other_rows(study, ledger)
     for reason, count in others.items():
-        say(f"besides   {count} rows {reason}: they do not count")
+        say(console, f"besides   {count} rows {reason}: they do not count")
     if others:
-        say(f"          remove them with: formicarium campaign clean {study.source}{study.options}")
+        say(console, f"          remove them with: formicarium campaign clean {study.source}{study.options}")
     for name, reason in ledger.damaged.items():
-        say(f"damaged   {study.folder / 'parts' / name} ({reason}): the next run sets it aside and repeats its runs")
+        say(
+            console,
+            f"damaged   {study.folder / 'parts' / name} ({reason}): the next run sets it aside and repeats its runs",
+        )
     failures = ledger.failures()
     shown = [(job, key) for job in study.jobs for key in job.keys if key in failures and key not in ledger.done]
     for job, key in shown[:SHOWN_FAILURES]:
         record = ledger.failure(key)
         last = str(record.get("failure", "")).strip().splitlines()[-1:] or [""]
-        say(f"failed    cell {job.cell.number}, seed {key[1]}: {last[0]} (see {ledger.failure_path(key)})")
+        say(console, f"failed    cell {job.cell.number}, seed {key[1]}: {last[0]} (see {ledger.failure_path(key)})")
     if len(shown) > SHOWN_FAILURES:
-        say(f"          and {len(shown) - SHOWN_FAILURES} more in {study.folder / 'failures'}")
+        say(console, f"          and {len(shown) - SHOWN_FAILURES} more in {study.folder / 'failures'}")
     return 0 if done == total else 1
