@@ -9,6 +9,7 @@ from formicarium.control.speech import broadcast, emitter_direction, in_sector
 from formicarium.robots.records import EMITTERS, Colour
 from formicarium.systems.sequencing.memory import State, enter
 from formicarium.systems.sequencing.messages import clear, encode, from_runner
+from formicarium.systems.sequencing.messages_ii import encode_ii
 
 SUCCESSOR_REACH = 0.30  # m, a magenta light this near in the sector ends an offer (TS-80)
 
@@ -21,23 +22,32 @@ def begin_message(memory, identity):
 
 
 @compiled
-def send(memory, command):
+def write(message, payload, table):
+    """Write a message into four bytes as the Mark has them."""
+    if table.mark == 2:
+        encode_ii(message, payload)
+    else:
+        encode(message, payload)
+
+
+@compiled
+def send(memory, command, table):
     """Send the message in all directions."""
-    encode(memory.message, command.payload[0])
+    write(memory.message, command.payload[0], table)
     broadcast(command)
 
 
 @compiled
-def send_invitation(memory, command, sector, half_width):
+def send_invitation(memory, command, sector, table):
     """Send the message in all directions, as T_DIR through the emitters within the sector."""
     memory.sector = sector
     memory.message.direction = 0
-    encode(memory.message, command.payload[0])
+    write(memory.message, command.payload[0], table)
     broadcast(command)
     memory.message.direction = 1
     for k in range(EMITTERS):
-        if in_sector(emitter_direction(k), sector, half_width + 1e-9):
-            encode(memory.message, command.payload[k])
+        if in_sector(emitter_direction(k), sector, table.sector_half_width + 1e-9):
+            write(memory.message, command.payload[k], table)
 
 
 @compiled

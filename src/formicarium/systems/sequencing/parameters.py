@@ -142,6 +142,10 @@ class BehaviourTable(Table):
     notify_least: int = number(30, "cycles", "and at least so long U54", ge=0)
     notification_gate: float = number(0.45, "m", "a guardian hears notifications within this [choice, T15]", gt=0)
 
+    step_memory: int = number(
+        3000, "cycles", "a runner that has not met its M4PI for so long starts its sequence again TS-128", ge=1
+    )
+
     # inhibition
     inhibition_distance: float = number(0.40, "m", "TS-106", ge=0)
     inhibition_ahead: float = number(

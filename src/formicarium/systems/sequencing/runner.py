@@ -23,6 +23,7 @@ from formicarium.systems.sequencing.guardian import qualifies
 from formicarium.systems.sequencing.member import begin_message, send
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.perception import guarded_colour, nearest_blob
+from formicarium.systems.sequencing.steps import keep_step
 from formicarium.systems.sequencing.tail import become_tail
 
 
@@ -137,7 +138,9 @@ def is_directed_to_task(reading, memory, table):
         if colour == 0 or colour == memory.last_success:
             continue
         advert = memory.adverts[colour]
-        if not qualifies(memory.count, advert.count, advert.confident):
+        if table.mark == 2 and not keep_step(memory, advert, cycle, table):
+            continue
+        if not qualifies(memory.count, advert.count, 1 if table.mark == 2 else advert.confident):
             continue
         if nearest_blob(reading, colour, 0.0, math.pi, 1.0) >= 0:
             begin_visit(memory, colour, 0, cycle)
@@ -292,13 +295,16 @@ def finish_notification(reading, memory, table):
     since = cycle - memory.verdict_heard
     advert = memory.adverts[memory.colour]
     fresh = cycle - advert.heard <= 1
-    arrived = advert.confident == 1 or (memory.verdict == 0 and advert.count > memory.reported)
+    if table.mark == 2:
+        arrived = advert.solved == 1 or advert.number != memory.reported
+    else:
+        arrived = advert.confident == 1 or (memory.verdict == 0 and advert.count > memory.reported)
     if (fresh and arrived and since >= table.notify_least) or since > table.notify_patience:
         memory.notifying = 0
 
 
 @compiled
-def speak(reading, memory, command):
+def speak(reading, memory, command, table):
     """Say what there is to say: a request, a notification, an inhibition. Runners are silent otherwise (TS-41)."""
     asks = memory.state == State.JOIN
     visiting = State.APPROACH <= memory.state <= State.STAND_OFF
@@ -310,9 +316,13 @@ def speak(reading, memory, command):
     memory.message.request = 1 if asks else 0
     memory.message.inhibit = 1 if inhibits else 0
     if notifies:
-        memory.message.count = memory.reported
         memory.message.direction = memory.verdict
-    send(memory, command)
+        if table.mark == 2:
+            memory.message.report = 1
+            memory.message.number = memory.reported
+        else:
+            memory.message.count = memory.reported
+    send(memory, command, table)
 
 
 @compiled
@@ -343,4 +353,4 @@ def run(reading, memory, command, table, epuck):
     elif state == State.INHIBITED:
         keep_clear(reading, memory, command, table, epuck)
     if memory.role == Role.RUNNER:
-        speak(reading, memory, command)
+        speak(reading, memory, command, table)

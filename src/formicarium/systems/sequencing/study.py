@@ -95,6 +95,14 @@ def timeline(trial: Trial) -> Timeline:
             marks.append((time, f"branch {event['subject']}"))
         elif event["kind"] == EventKind.CHAIN:
             marks.append((time, "chain complete"))
+        elif event["kind"] == EventKind.ELECTION:
+            marks.append((time, "election"))
+        elif event["kind"] == EventKind.LABEL:
+            marks.append((time, "labels"))
+        elif event["kind"] == EventKind.STEP:
+            marks.append((time, "steps"))
+        elif event["kind"] == EventKind.SOLVED:
+            marks.append((time, "solved"))
     counts = (events[events["kind"] == EventKind.SEQUENCE]["cycle"] + 1) * cycle_time
     lanes = tuple(str(identity) for identity in identities)
     return Timeline(lanes, tuple(spans), tuple(marks), tuple(float(t) for t in counts), end)

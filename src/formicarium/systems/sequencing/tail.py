@@ -22,6 +22,7 @@ from formicarium.systems.sequencing.member import (
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.messages import LINK_NUMBER_LIMIT
 from formicarium.systems.sequencing.perception import guarded_colour, track_neighbours
+from formicarium.systems.sequencing.ring import is_word_of
 
 CYCLE_TIME = 0.1  # s, the paper's control period
 SERVO_GAIN = 2.0  # 1/s, speed per distance error of the tail
@@ -36,6 +37,7 @@ def become_tail(reading, memory, table, n):
     memory.link_number = min(LINK_NUMBER_LIMIT, message.link_number + 1)
     memory.established = 0
     memory.chosen = 0
+    memory.asked = 0
     memory.successor.known = 0
     memory.requested = reading.cycle
     memory.sweep_due = table.sweep_idle
@@ -74,6 +76,14 @@ def move(memory, command, outward, leftward, table, wheel_distance):
 
 
 @compiled
+def is_free(advert, memory, table):
+    """Tell whether a guardian may be docked at: reached by no chain yet, and not where the branch starts (U23)."""
+    if table.mark == 2:
+        return advert.established == 0 and advert.identity != memory.branch
+    return advert.in_chain == 0 and advert.tail == 0
+
+
+@compiled
 def spot_guardian(reading, memory, table):
     """Look for a guardian that no chain has reached yet, ahead of the branch (TS-86); sight, then message.
 
@@ -88,8 +98,9 @@ def spot_guardian(reading, memory, table):
         if colour == 0:
             continue
         advert = memory.adverts[colour]
-        if advert.in_chain == 0 and advert.tail == 0 and advert.identity != 0:
+        if advert.identity != 0 and is_free(advert, memory, table):
             memory.chosen = advert.identity
+            memory.asked = advert.identity
             place(memory.successor, blob.distance, blob.bearing, reading.cycle)
             return True
     return False
@@ -102,11 +113,16 @@ def recruits_for_gap(memory, table):
 
 
 @compiled
-def hear_guardian(reading, memory):
-    """Tell whether the guardian has taken over: EST with BRN one above the branch's (TS-50)."""
+def hear_guardian(reading, memory, table):
+    """Tell whether the guardian has taken over: EST with BRN one above the branch's (TS-50).
+
+    In Mark II, where there is no BRN: EST of the guardian that this tail has asked.
+    """
     for n in range(reading.packet_count):
         message = memory.heard[n]
-        if message.guardian == 1 and message.established == 1 and message.branch == memory.branch + 1:
+        if message.guardian == 0 or message.established == 0:
+            continue
+        if message.branch == memory.branch + 1 if table.mark == 1 else is_word_of(message, memory.asked):
             return True
     return False
 
@@ -191,22 +207,23 @@ def hands_over(reading, memory, table):
 def speak(reading, memory, command, table):
     """Announce the tail; invite through the sector, or answer the chosen one in all directions."""
     if memory.role == Role.LINK:
-        link.speak(reading, memory, command)
+        link.speak(reading, memory, command, table)
         return
     begin_message(memory, reading.identity)
     memory.message.tail = 1
     memory.message.branch = memory.branch
+    memory.message.source = memory.branch
     memory.message.link_number = memory.link_number
     if memory.state == State.OFFER or hands_over(reading, memory, table):
         memory.message.request = 1
         memory.message.identity = memory.chosen
-        send(memory, command)
+        send(memory, command, table)
     elif memory.state == State.OPEN:
-        send_invitation(memory, command, branch_direction(memory), table.sector_half_width)
+        send_invitation(memory, command, branch_direction(memory), table)
     elif memory.state == State.DOCK and recruits_for_gap(memory, table):
-        send_invitation(memory, command, bearing_to(memory.successor), table.sector_half_width)
+        send_invitation(memory, command, bearing_to(memory.successor), table)
     else:
-        send(memory, command)
+        send(memory, command, table)
 
 
 @compiled
@@ -215,9 +232,11 @@ def tail(reading, memory, command, table, epuck):
     cycle = reading.cycle
     command.colour = Colour.MAGENTA
     track_neighbours(reading, memory, table)
-    if hear_guardian(reading, memory):
+    if hear_guardian(reading, memory, table):
         become_link(memory, cycle)
         memory.established = 1
+        if table.mark == 2:
+            memory.chosen = memory.asked
     elif memory.state != State.DOCK and relieved(reading, memory, table):
         become_link(memory, cycle)
     elif memory.state == State.POSITION:
