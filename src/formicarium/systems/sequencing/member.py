@@ -71,20 +71,31 @@ def hear_requests(reading, memory, table):
 def relieved(reading, memory, table):
     """Tell whether the chosen runner has taken over: its T_ACK came, or a magenta light stands in the sector.
 
+    A request names no tail, so two tails may choose the same runner: it has taken over only on its own branch.
     The light counts only while the offer is pending; the acknowledgement counts for ever, so that a lost one
     is made good by the successor's next message (TS-83). Sets the successor's track.
     """
     for n in range(reading.packet_count):
         message = memory.heard[n]
         if memory.chosen != 0 and message.tail == 1 and message.guardian == 0 and message.request == 0:
-            if message.identity == memory.chosen:
+            if message.identity == memory.chosen and message.branch == memory.branch:
                 packet = reading.packets[n]
                 place(memory.successor, packet.distance, packet.bearing, reading.cycle)
                 take_light(reading, memory, packet.bearing, table.refind_gate)
                 return True
-    if memory.state == State.OFFER:
+    if memory.state == State.OFFER and not (table.mark == 2 and is_beside_another(reading, memory, table)):
         return take_light(reading, memory, memory.sector, table.sector_half_width)
     return False
+
+
+@compiled
+def is_beside_another(reading, memory, table):
+    """Tell whether the tail of another branch has been heard lately: a magenta light may be its (TS-80, C18)."""
+    for n in range(reading.packet_count):
+        message = memory.heard[n]
+        if message.tail == 1 and message.guardian == 0 and message.branch != memory.branch:
+            memory.stranger_heard = reading.cycle
+    return reading.cycle - memory.stranger_heard <= table.stranger_memory
 
 
 @compiled

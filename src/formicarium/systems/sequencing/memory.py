@@ -113,6 +113,7 @@ MEMORY = np.dtype(
         ("successor", TRACK),
         ("sector", "f8"),  # rad, middle of the sector invited last
         ("chosen", "i8"),  # identity of the runner, or guardian, chosen as successor
+        ("stranger_heard", "i8"),  # cycle at which the tail of another branch was heard last (Mark II)
         ("asked", "i8"),  # identity of the guardian that this tail has asked last to take over (Mark II)
         ("ring", RING),  # of the closed loop (Mark II)
         ("requested", "i8"),  # cycle of the last request, or of the last sweep

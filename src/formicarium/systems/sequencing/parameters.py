@@ -194,6 +194,12 @@ class BehaviourTable(Table):
     )
     track_gain: float = number(0.35, "1", "share of the new sighting in a neighbour's place [probe]", gt=0, le=1)
     track_refind: int = number(5, "cycles", "a neighbour unseen so long is looked for by its packets [probe]", ge=1)
+    stranger_memory: int = number(
+        20,
+        "cycles",
+        "a tail that has heard one of another branch trusts no magenta light for so long [choice, C18]",
+        ge=0,
+    )
     track_lost: int = number(
         20, "cycles", "a link that has not seen a neighbour for so long stands still [choice]", ge=1
     )

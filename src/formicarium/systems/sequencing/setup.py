@@ -118,6 +118,7 @@ def make_memories(robots: np.recarray, seed: int) -> np.recarray:
             "echo_until",
             "requested",
             "step_heard",
+            "stranger_heard",
         ):
             memory[name] = NEVER
         for colour in range(COLOURS):
