@@ -83,19 +83,23 @@ def relieved(reading, memory, table):
                 place(memory.successor, packet.distance, packet.bearing, reading.cycle)
                 take_light(reading, memory, packet.bearing, table.refind_gate)
                 return True
-    if memory.state == State.OFFER and not (table.mark == 2 and is_beside_another(reading, memory, table)):
+    if memory.state == State.OFFER and (table.mark == 1 or light_counts(reading, memory, table)):
         return take_light(reading, memory, memory.sector, table.sector_half_width)
     return False
 
 
 @compiled
-def is_beside_another(reading, memory, table):
-    """Tell whether the tail of another branch has been heard lately: a magenta light may be its (TS-80, C18)."""
+def light_counts(reading, memory, table):
+    """Tell whether a magenta light can only be the successor's, where there are several tails (TS-80, C18).
+
+    It may be another branch's, or the chosen runner may have gone there. So the light counts only if the
+    acknowledgement has not come for a while and no tail of another branch has been heard in the meantime.
+    """
     for n in range(reading.packet_count):
         message = memory.heard[n]
         if message.tail == 1 and message.guardian == 0 and message.branch != memory.branch:
             memory.stranger_heard = reading.cycle
-    return reading.cycle - memory.stranger_heard <= table.stranger_memory
+    return reading.cycle - max(memory.since, memory.stranger_heard) > table.light_patience
 
 
 @compiled

@@ -194,10 +194,10 @@ class BehaviourTable(Table):
     )
     track_gain: float = number(0.35, "1", "share of the new sighting in a neighbour's place [probe]", gt=0, le=1)
     track_refind: int = number(5, "cycles", "a neighbour unseen so long is looked for by its packets [probe]", ge=1)
-    stranger_memory: int = number(
-        20,
+    light_patience: int = number(
+        10,
         "cycles",
-        "a tail that has heard one of another branch trusts no magenta light for so long [choice, C18]",
+        "Mark II: so long without an answer or another branch's tail, then a light ends an offer [choice, C18]",
         ge=0,
     )
     track_lost: int = number(

@@ -19,7 +19,7 @@ from formicarium.systems.sequencing.member import (
     send,
     send_invitation,
 )
-from formicarium.systems.sequencing.memory import Role, State, enter
+from formicarium.systems.sequencing.memory import COLOURS, Role, State, enter
 from formicarium.systems.sequencing.messages import LINK_NUMBER_LIMIT
 from formicarium.systems.sequencing.perception import guarded_colour, track_neighbours
 from formicarium.systems.sequencing.ring import is_word_of
@@ -100,7 +100,6 @@ def spot_guardian(reading, memory, table):
         advert = memory.adverts[colour]
         if advert.identity != 0 and is_free(advert, memory, table):
             memory.chosen = advert.identity
-            memory.asked = advert.identity
             place(memory.successor, blob.distance, blob.bearing, reading.cycle)
             return True
     return False
@@ -173,10 +172,21 @@ def sweep(reading, memory, command, table, epuck):
 
 
 @compiled
+def is_taken(memory, table):
+    """Tell whether another branch has reached the guardian before this tail could ask it (Mark II)."""
+    if table.mark == 1 or memory.asked == memory.chosen:
+        return False
+    for c in range(1, COLOURS):
+        if memory.adverts[c].identity == memory.chosen and memory.adverts[c].established == 1:
+            return True
+    return False
+
+
+@compiled
 def dock(reading, memory, command, table, epuck):
     """Align with predecessor and guardian; recruit one more robot if the gap is too wide (TS-87)."""
     cycle = reading.cycle
-    if cycle - memory.successor.seen > table.track_lost:
+    if cycle - memory.successor.seen > table.track_lost or is_taken(memory, table):
         memory.chosen = 0
         memory.successor.known = 0
         memory.requested = cycle
@@ -214,9 +224,11 @@ def speak(reading, memory, command, table):
     memory.message.branch = memory.branch
     memory.message.source = memory.branch
     memory.message.link_number = memory.link_number
-    if memory.state == State.OFFER or hands_over(reading, memory, table):
+    asks = hands_over(reading, memory, table)
+    if memory.state == State.OFFER or asks:
         memory.message.request = 1
         memory.message.identity = memory.chosen
+        memory.asked = memory.chosen if asks else memory.asked
         send(memory, command, table)
     elif memory.state == State.OPEN:
         send_invitation(memory, command, branch_direction(memory), table)
