@@ -161,18 +161,23 @@ def is_invited(reading, memory, table):
         colour = Colour.CYAN if message.guardian == 1 else Colour.MAGENTA
         bearing = reading.packets[n].bearing
         if nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance) >= 0:
+            memory.branch = message.branch
             return True
     return False
 
 
 @compiled
 def join(reading, memory, command, table):
-    """Stand still and ask; become the tail when chosen, else leave (T_REQ, T_RES, T_ACK)."""
+    """Stand still and ask; become the tail when chosen, else leave (T_REQ, T_RES, T_ACK).
+
+    A request names no tail. In Mark II a tail of another branch, far off, may answer it: that does not count.
+    """
     stop(command)
     cycle = reading.cycle
     for n in range(reading.packet_count):
         message = memory.heard[n]
-        if message.tail == 1 and message.request == 1 and message.identity == reading.identity:
+        answered = message.tail == 1 and message.request == 1 and message.identity == reading.identity
+        if answered and (table.mark == 1 or message.branch == memory.branch):
             become_tail(reading, memory, table, n)
             return
     if cycle - memory.since > table.request_patience:

@@ -128,10 +128,15 @@ def hear_guardian(reading, memory, table):
 
 @compiled
 def open_branch(reading, memory, command, table, epuck):
-    """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps."""
+    """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps.
+
+    In Mark II a guardian in view comes before any request: runners go round it already, and one that stands beyond
+    it would lead the branch past it.
+    """
     cycle = reading.cycle
     move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
-    hear_requests(reading, memory, table)
+    if table.mark == 1 or not spot_guardian(reading, memory, table):
+        hear_requests(reading, memory, table)
     if memory.state == State.OPEN:
         if spot_guardian(reading, memory, table):
             memory.settled = cycle
