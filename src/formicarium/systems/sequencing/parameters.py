@@ -225,6 +225,9 @@ class BehaviourTable(Table):
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
     dock_gaps: float = number(0.40, "m", "if both gaps add up to more, recruit one more U21", gt=0)
+    pull_patience: int = number(
+        50, "cycles", "Mark II: for so long it pulls the branch forward before it recruits [choice, TS-87]", ge=0
+    )
     dock_band: float = number(0.03, "m", "tolerance of the gaps while docking: twice the camera's noise [choice]", ge=0)
     dock_hold: int = number(10, "cycles", "aligned so long, then it hands over U20", ge=0)
     dock_patience: int = number(200, "cycles", "or it hands over anyway [probe]", ge=1)

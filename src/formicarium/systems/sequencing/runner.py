@@ -149,6 +149,15 @@ def is_directed_to_task(reading, memory, table):
 
 
 @compiled
+def goes_round_guardian(reading, inviter):
+    """Tell whether a guardian's light is nearer than the inviting one: the branch would be led past the guardian."""
+    for n in range(inviter):  # nearest first
+        if reading.blobs[n].colour == Colour.CYAN:
+            return True
+    return False
+
+
+@compiled
 def is_invited(reading, memory, table):
     """Tell whether a tail invites this runner: T_DIR heard from a tail's light within reach."""
     cycle = reading.cycle
@@ -160,7 +169,8 @@ def is_invited(reading, memory, table):
             continue
         colour = Colour.CYAN if message.guardian == 1 else Colour.MAGENTA
         bearing = reading.packets[n].bearing
-        if nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance) >= 0:
+        inviter = nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance)
+        if inviter >= 0 and not (table.mark == 2 and goes_round_guardian(reading, inviter)):
             memory.branch = message.branch
             return True
     return False

@@ -106,9 +106,14 @@ def spot_guardian(reading, memory, table):
 
 
 @compiled
-def recruits_for_gap(memory, table):
-    """Tell whether the guardian is too far for this tail alone, so that one more robot is needed (U21)."""
-    return distance_to(memory.predecessor) + distance_to(memory.successor) > table.dock_gaps
+def recruits_for_gap(memory, table, cycle):
+    """Tell whether the guardian is too far for this tail alone, so that one more robot is needed (U21).
+
+    In Mark II the tail first pulls the branch forward (TS-87): there are runners round the guardian at once, and each
+    that is recruited in haste bends the branch.
+    """
+    wide = distance_to(memory.predecessor) + distance_to(memory.successor) > table.dock_gaps
+    return wide and (table.mark == 1 or cycle - memory.since > table.pull_patience)
 
 
 @compiled
@@ -198,7 +203,7 @@ def dock(reading, memory, command, table, epuck):
         memory.sweep_due = pause_to_realign(memory, table)
         enter(memory, State.OPEN, cycle)
         return
-    if recruits_for_gap(memory, table):
+    if recruits_for_gap(memory, table, reading.cycle):
         memory.settled = cycle
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
         hear_requests(reading, memory, table)
@@ -212,7 +217,7 @@ def dock(reading, memory, command, table, epuck):
 @compiled
 def hands_over(reading, memory, table):
     """Tell whether a docking tail is aligned long enough, or has tried long enough, to hand over."""
-    if memory.state != State.DOCK or recruits_for_gap(memory, table):
+    if memory.state != State.DOCK or recruits_for_gap(memory, table, reading.cycle):
         return False
     cycle = reading.cycle
     return cycle - memory.settled >= table.dock_hold or cycle - memory.since >= table.dock_patience
@@ -237,7 +242,7 @@ def speak(reading, memory, command, table):
         send(memory, command, table)
     elif memory.state == State.OPEN:
         send_invitation(memory, command, branch_direction(memory), table)
-    elif memory.state == State.DOCK and recruits_for_gap(memory, table):
+    elif memory.state == State.DOCK and recruits_for_gap(memory, table, reading.cycle):
         send_invitation(memory, command, bearing_to(memory.successor), table)
     else:
         send(memory, command, table)
