@@ -61,6 +61,35 @@ def test_a_failed_trial_has_a_named_cause(fields, events, name):
     assert cause(ROW | fields, log(*events), 20, 3, CYCLE) == name
 
 
+LOOP = ROW | {
+    **{"time_elected_s": 310.0, "time_solved_s": 900.0, "upi_found": 2, "upi_correct": 2, "steps_behind": 0},
+    **{"runners": 5, "runners_inside": 1, "branches": 3, "tails": 0, "members": 20},
+}
+OPEN = {"time_chain_s": None, "time_elected_s": None, "time_solved_s": None}
+
+
+@pytest.mark.parametrize(
+    ("fields", "events", "name"),
+    [
+        ({"guardians": 2, "branches": 0} | OPEN, [], "a task found no guardian"),
+        ({"members": 25, "branches": 2} | OPEN, [], "all robots in an unfinished chain"),
+        ({"branches": 1, "tails": 2} | OPEN, [], "2 of 3 branches missed their guardian"),
+        ({"branches": 1, "tails": 1} | OPEN, [], "a branch lost its tail"),
+        (OPEN, [], "the loop did not close"),
+        ({"time_elected_s": None, "time_solved_s": None}, [], "no election"),
+        ({"upi_found": 3}, [], "a wrong order taken for right"),
+        ({"steps_behind": 1}, [], "news did not get round the loop"),
+        ({"runners_inside": 5}, [], "all free robots inside the loop"),
+        ({"members": 25}, [], "all robots in the finished chain"),
+        ({}, [(2400.0 - STALLED + 1, EventKind.STEP, 7, 1, 4)], "too slow"),
+        ({}, [(600.0, EventKind.STEP, 7, 1, 4), moved(700.0, Role.LINK)], "link displaced"),
+        ({}, [], "runners stuck"),
+    ],
+)
+def test_a_failed_trial_of_mark_ii_has_a_named_cause(fields, events, name):
+    assert cause(LOOP | fields, log(*events), 25, 3, CYCLE) == name
+
+
 def finished(robots=20, **roles):
     """Return the state of a trial at its end, with so many guardians, links and tails."""
     state = begin(mark_i3_parameters(robots=robots), 1)

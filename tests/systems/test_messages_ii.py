@@ -327,11 +327,94 @@ def test_an_acknowledgement_counts_on_the_own_branch_alone():
     assert robot.memory.role == Role.LINK
 
 
-def test_a_magenta_light_beside_the_tail_of_another_branch_does_not_end_an_offer():
-    """TS-80, C18."""
-    assert offering().see((Colour.MAGENTA, 0.18, 0.0)).live().memory.role == Role.LINK
+def waiting(cycles: int, *heard) -> OneRobot:
+    """Let it offer for so long with a magenta light in its sector, then with these words in the air for a cycle."""
+    robot = offering()
+    for n in range(cycles):
+        for words in heard if n == cycles // 2 else ():
+            robot.hear(words)
+        robot.see((Colour.MAGENTA, 0.18, 0.0)).live()
+    return robot
+
+
+def test_a_magenta_light_ends_an_offer_only_if_it_can_be_nobody_elses():
+    """TS-80, C18: after a while without an answer, and without another branch's tail in the air."""
+    patience = offering().table.light_patience
+    assert waiting(patience).memory.role == Role.TAIL
+    assert waiting(patience + 2).memory.role == Role.LINK
     stranger = written_ii(identity=50, tail=1, link_number=2, source=0xC9)
-    assert offering().hear(stranger).see((Colour.MAGENTA, 0.18, 0.0)).live().memory.role == Role.TAIL
+    assert waiting(patience + 2, stranger).memory.role == Role.TAIL
+    own = written_ii(identity=51, tail=1, link_number=6, source=0xC8)
+    assert waiting(patience + 2, own).memory.role == Role.LINK
+
+
+def asking(branch=0xC8) -> OneRobot:
+    """Return a runner that has answered the invitation of a branch."""
+    robot = OneRobot(0x42, mark=2).turn_to(State.FOLLOW)
+    robot.hear(written_ii(identity=33, tail=1, direction=1, link_number=5, source=branch))
+    return robot.see((Colour.MAGENTA, 0.2, 0.0)).live()
+
+
+def test_a_runner_joins_the_branch_that_invited_it():
+    """A request names no tail, so another branch's tail, out of reach, may answer it."""
+    for source, role in ((0xC9, Role.RUNNER), (0xC8, Role.TAIL)):
+        robot = asking()
+        assert robot.memory.state == State.JOIN
+        robot.hear(written_ii(identity=0x42, tail=1, request=1, link_number=5, source=source)).live()
+        assert robot.memory.role == role
+    assert robot.memory.branch == 0xC8 and robot.memory.link_number == 6
+
+
+def test_a_runner_that_goes_round_a_guardian_does_not_lead_a_branch_past_it():
+    for guardian_at, state in ((0.12, State.FOLLOW), (0.25, State.JOIN)):
+        robot = OneRobot(0x42, mark=2).turn_to(State.FOLLOW)
+        robot.hear(written_ii(identity=33, tail=1, direction=1, link_number=5, source=0xC8))
+        robot.see((Colour.MAGENTA, 0.2, 0.0), (Colour.CYAN, guardian_at, 2.0)).live()
+        assert robot.memory.state == state
+
+
+def test_a_tail_looks_for_a_guardian_before_it_hears_requests():
+    request = written_ii(identity=0x42, request=1)
+    assert advertised(leading().hear(request)).memory.state == State.DOCK
+    assert leading().hear(request).live().memory.state == State.OFFER
+
+
+def docking(distance: float) -> OneRobot:
+    robot = leading()
+    advert = written_ii(identity=9, guardian=1, tail=1, colour=1, source=9)
+    return robot.hear(advert).see((Colour.CYAN, distance, 0.0)).live()
+
+
+def test_a_docking_tail_pulls_before_it_recruits():
+    """TS-87, U21: the gap is too wide for one robot."""
+    robot = docking(0.3)
+    advert = written_ii(identity=9, guardian=1, tail=1, colour=1, source=9)
+    pulled = 0
+    for _ in range(robot.table.pull_patience + 5):
+        robot.hear(advert).see((Colour.CYAN, 0.3, 0.0)).live()
+        pulled += robot.motion()[0] > 0.005
+    assert robot.memory.state == State.DOCK and pulled > 10
+    assert read_ii(robot.sent()[0])["direction"] == 1 and read_ii(robot.sent()[6])["direction"] == 0
+
+
+def test_a_tail_does_not_take_the_word_to_another_branch_for_its_own():
+    """The guardian it aligns with says EST before it has been asked: it has been reached by another."""
+    robot = docking(0.18)
+    reached = written_ii(identity=9, guardian=1, tail=1, established=1, colour=1, source=9)
+    for _ in range(3):
+        robot.hear(reached).see((Colour.CYAN, 0.18, 0.0)).live()
+    assert robot.memory.role == Role.TAIL and robot.memory.state == State.OPEN
+
+
+def test_a_tail_that_has_asked_becomes_a_link_when_the_guardian_says_est():
+    robot = docking(0.18)
+    advert = written_ii(identity=9, guardian=1, tail=1, colour=1, source=9)
+    for _ in range(robot.table.dock_hold + 2):
+        robot.hear(advert).see((Colour.CYAN, 0.18, 0.0)).live()
+    words = read_ii(robot.sent()[0])
+    assert (words["tail"], words["request"], words["identity"], words["source"]) == (1, 1, 9, 0xC8)
+    robot.hear(written_ii(identity=9, guardian=1, tail=1, established=1, colour=1, source=9)).live()
+    assert robot.memory.role == Role.LINK and robot.memory.established == 1 and robot.memory.chosen == 9
 
 
 def linked(established: int) -> OneRobot:
