@@ -95,9 +95,10 @@ def stands_ahead(reading, threshold):
 
 
 @compiled
-def queues(reading, memory, table):
+def queues(reading, memory, beside_guardian, table):
     """Tell whether a runner beside a guardian waits for who stands right ahead; its patience has an end."""
-    memory.queued = memory.queued + 1 if stands_ahead(reading, table.queue_value) else 0
+    blocked = beside_guardian and stands_ahead(reading, table.queue_value)
+    memory.queued = memory.queued + 1 if blocked else 0
     return 0 < memory.queued <= table.queue_patience
 
 
@@ -109,6 +110,6 @@ def follow_chain(reading, memory, command, x, y, beside_guardian, table, wheel_d
         push_x, push_y = repulsion(reading, math.atan2(y, x), table.repulsion_value)
         vx += table.repulsion_weight * push_x
         vy += table.repulsion_weight * push_y
-    waits = presses_member(reading, table.member_clearance) or (beside_guardian and queues(reading, memory, table))
+    waits = presses_member(reading, table.member_clearance) or queues(reading, memory, beside_guardian, table)
     speed = 0.0 if waits else table.follow_speed
     steer(command, math.atan2(vy, vx), speed, table.steering_gain, table.turn_rate, wheel_distance)

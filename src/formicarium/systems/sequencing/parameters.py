@@ -175,8 +175,8 @@ class BehaviourTable(Table):
 
     # chain members
     spacing: float = number(0.18, "m", "wanted between members; the paper prints 0.15, see TS-38 [tuned]", gt=0)
-    spacing_tolerance: float = number(0.05, "m", "[paper]", ge=0)
-    alignment_tolerance: float = number(degrees(10), "rad", "[paper]", ge=0)
+    spacing_tolerance: float = number(0.05, "m", "[paper]", gt=0)
+    alignment_tolerance: float = number(degrees(10), "rad", "[paper]", gt=0)
     mending_share: float = number(
         0.15,
         "1",
@@ -228,7 +228,7 @@ class BehaviourTable(Table):
     pull_patience: int = number(
         50, "cycles", "Mark II: for so long it pulls the branch forward before it recruits [choice, TS-87]", ge=0
     )
-    dock_band: float = number(0.03, "m", "tolerance of the gaps while docking: twice the camera's noise [choice]", ge=0)
+    dock_band: float = number(0.03, "m", "tolerance of the gaps while docking: twice the camera's noise [choice]", gt=0)
     dock_hold: int = number(10, "cycles", "aligned so long, then it hands over U20", ge=0)
     dock_patience: int = number(200, "cycles", "or it hands over anyway [probe]", ge=1)
     cnd_monotone: bool = number(True, "1", "a late notification does not lower CND TS-60")

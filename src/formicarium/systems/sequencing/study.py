@@ -92,7 +92,8 @@ def timeline(trial: Trial) -> Timeline:
     for event in events:
         time = float(event["cycle"] + 1) * cycle_time
         if event["kind"] == EventKind.BRANCH:
-            marks.append((time, f"branch {event['subject']}"))
+            loop = "upi_correct" in trial.outcome  # Mark II names a branch by the guardian that it starts from
+            marks.append((time, f"branch from {TASKS[event['subject']]}" if loop else f"branch {event['subject']}"))
         elif event["kind"] == EventKind.CHAIN:
             marks.append((time, "chain complete"))
         elif event["kind"] == EventKind.ELECTION:

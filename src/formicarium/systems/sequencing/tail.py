@@ -25,6 +25,7 @@ from formicarium.systems.sequencing.perception import guarded_colour, track_neig
 from formicarium.systems.sequencing.ring import is_word_of
 
 CYCLE_TIME = 0.1  # s, the paper's control period
+WHOLE = 1.0  # share of the tolerances within which a docking tail is in line
 SERVO_GAIN = 2.0  # 1/s, speed per distance error of the tail
 
 
@@ -208,9 +209,8 @@ def dock(reading, memory, command, table, epuck):
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
         hear_requests(reading, memory, table)
         return
-    if not keep_in_line(
-        memory.predecessor, memory.successor, command, table, table.dock_band, 1.0, epuck.wheel_distance
-    ):
+    behind, ahead, tolerance = memory.predecessor, memory.successor, table.dock_band
+    if not keep_in_line(behind, ahead, command, table, tolerance, WHOLE, epuck.wheel_distance):
         memory.settled = cycle
 
 
