@@ -146,3 +146,18 @@ def test_the_correct_order_has_one_upi():
     assert correct_upi({1: 2, 2: 1, 3: 3}, [2, 1, 3]) == 0  # red is b, green a, blue c; green, red, blue: abc
     assert correct_upi({1: 2, 2: 1, 3: 3}, [3, 1, 2]) == 5
     assert correct_upi({1: 2, 2: 1}, [3, 1, 2]) is None
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("configure", [mark_ii3_parameters, mark_ii4_parameters])
+def test_every_first_success_is_at_the_upi_of_the_correct_order(configure):
+    """TS-151: after as many failed sequences as there are permutations before it, and most loops close."""
+    parameters = configure(swarm={"time_cap": 10_000.0, "sequences": 2})
+    rows = [MARK_II3.run(parameters, seed).outcome for seed in range(100, 140)]
+    solved = [row for row in rows if row["time_solved_s"] is not None]
+    assert len(solved) > 0.5 * len(rows)
+    for row in solved:
+        if row["mixed"] == row["protocol_faults"] == 0:
+            assert row["upi_found"] == row["upi_correct"] == row["steps"]
+            assert row["failed_sequences"] >= row["steps"]
+    assert len({row["upi_correct"] for row in solved}) > 4

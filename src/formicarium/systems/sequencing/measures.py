@@ -77,9 +77,7 @@ def note_execution(state, b, task_cycles):
     complete = present and executed(record, booth.colour, coordinator.order, coordinator.tasks)
     claimed = success and booth.claim == coordinator.tasks
     if coordinator.delayed == 1:
-        complete = (
-            complete and claimed
-        )  # by chance in order, but not one sequence: no verdict, so none to disagree with
+        complete = complete and claimed  # in the right order by chance, across two sequences: nobody is told
         note_mixed(state, i, booth.colour, booth.claim)
     if not present or complete != claimed:
         write_event(clock, state.events, EventKind.DISAGREEMENT, who, booth.colour, 0, 0)

@@ -71,14 +71,14 @@ def hear_requests(reading, memory, table):
 def relieved(reading, memory, table):
     """Tell whether the chosen runner has taken over: its T_ACK came, or a magenta light stands in the sector.
 
-    A request names no tail, so two tails may choose the same runner: it has taken over only on its own branch.
+    A request names no tail, so in Mark II two may choose the same runner: it takes over on its own branch alone.
     The light counts only while the offer is pending; the acknowledgement counts for ever, so that a lost one
     is made good by the successor's next message (TS-83). Sets the successor's track.
     """
     for n in range(reading.packet_count):
         message = memory.heard[n]
         if memory.chosen != 0 and message.tail == 1 and message.guardian == 0 and message.request == 0:
-            if message.identity == memory.chosen and message.branch == memory.branch:
+            if message.identity == memory.chosen and (table.mark == 1 or message.branch == memory.branch):
                 packet = reading.packets[n]
                 place(memory.successor, packet.distance, packet.bearing, reading.cycle)
                 take_light(reading, memory, packet.bearing, table.refind_gate)

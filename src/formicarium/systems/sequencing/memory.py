@@ -99,6 +99,7 @@ MEMORY = np.dtype(
         ("notifying", "i8"),  # 1 while a notification is due
         ("verdict_heard", "i8"),  # cycle
         ("last_success", "i8"),  # colour of the task just done with success
+        ("invited_by", "i8"),  # branch whose tail invited it last
         ("step", "i8"),  # M4PI of the permutation that it is trying (Mark II)
         ("step_heard", "i8"),  # cycle at which a guardian said that M4PI last
         ("inhibiting_until", "i8"),  # cycle; sends inhibitions until then

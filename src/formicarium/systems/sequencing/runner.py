@@ -171,7 +171,7 @@ def is_invited(reading, memory, table):
         bearing = reading.packets[n].bearing
         inviter = nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance)
         if inviter >= 0 and not (table.mark == 2 and goes_round_guardian(reading, inviter)):
-            memory.branch = message.branch
+            memory.invited_by = message.branch
             return True
     return False
 
@@ -187,7 +187,7 @@ def join(reading, memory, command, table):
     for n in range(reading.packet_count):
         message = memory.heard[n]
         answered = message.tail == 1 and message.request == 1 and message.identity == reading.identity
-        if answered and (table.mark == 1 or message.branch == memory.branch):
+        if answered and (table.mark == 1 or message.branch == memory.invited_by):
             become_tail(reading, memory, table, n)
             return
     if cycle - memory.since > table.request_patience:
