@@ -10,7 +10,9 @@ from pathlib import Path
 import pyarrow.csv
 import pyarrow.parquet as pq
 import pytest
+from pydantic import create_model
 
+import random_walk
 from formicarium.campaigns import table
 from formicarium.commands import work
 from formicarium.commands.main import exit_code
@@ -183,6 +185,42 @@ def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_p
     assert campaign("status") == 1
     assert "other sources" not in capsys.readouterr().out.split("removed")[-1]
     assert not list((tmp_path / "here" / "parts").iterdir())
+
+
+def test_rows_of_sources_with_fewer_parameters_are_still_read(tmp_path, capsys, monkeypatch):
+    """New sources bring new parameters and other defaults; what the design says is the same."""
+    assert campaign("run", "--workers", 1, "--set", "duration=300") == 0
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    before = rows()
+    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(random_walk, "RANDOM_WALK", later_walk())
+    capsys.readouterr()
+    assert campaign("collect") == 2
+    said = capsys.readouterr().err
+    own = before[0]["sources"]
+    assert f"12 rows made by other sources (--sources {own})" in said
+    assert f"12 rows of other parameters, made by other sources ({own})" in said
+    assert campaign("status") == 1
+    assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()[1:6]] == ["outdated", *"3333"]
+    assert campaign("collect", "--sources", own) == 0
+    assert rows() == before
+    assert campaign("collect", "--sources", own, "--set", "duration=300") == 0
+    assert {row["duration_s"] for row in rows()} == {300.0}
+
+
+def later_walk():
+    """Return the system as other sources have it: with one parameter more, and another default."""
+    trial = create_model("Trials", __base__=random_walk.Trials, patience=(float, 5.0))
+    booth = create_model("Booth", __base__=random_walk.Booth, speed=(float, 2.0))
+    parameters = create_model(
+        "Parameters", __base__=random_walk.Parameters, trial=(trial, trial()), booth=(booth, booth())
+    )
+
+    def configure(setting=None, robots=None):
+        return parameters(swarm=random_walk.configure(setting, robots).swarm)
+
+    return random_walk.RANDOM_WALK._replace(parameters=parameters, configure=configure)
 
 
 def collected(folder, text):

@@ -10,6 +10,8 @@ from pydantic import ValidationError
 from formicarium.campaigns.cells import Cell, Job, cells_of, check_distinct
 from formicarium.campaigns.design import Design, make_design
 from formicarium.campaigns.design_file import read_content
+from formicarium.campaigns.ledger import Ledger
+from formicarium.commands.campaign.earlier import made_by
 from formicarium.commands.errors import UserError
 from formicarium.commands.fields import find_field, in_words, parted, typed_value, value_of_text, with_values
 from formicarium.commands.known import find_system
@@ -67,16 +69,16 @@ def study_of(content: Mapping[str, Any], source: str, out: str | None, overrides
     _check_names(design, system, source)
     jobs = []
     for cell in cells_of(design):
-        parameters = _parameters(cell, design, system, source)
+        parameters = _parameters(cell, system, source)
         configuration = configuration_of(system, parameters)
-        if overrides.sources is not None:
-            configuration = configuration._replace(sources=overrides.sources)
         function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
         jobs.append(Job(cell, configuration, function))
     check_distinct(jobs)
     if out == "":
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
     folder = Path(out or f"formicarium-results/{design.name}")
+    if overrides.sources is not None:
+        jobs = made_by(overrides.sources, jobs, Ledger(folder))
     return Study(source, design, system, jobs, folder, _options(out, overrides))
 
 
@@ -135,8 +137,8 @@ def _check_names(design: Design, system: System, source: str) -> None:
                 raise UserError(f"{said}: is the same parameter as {paths[path]!r}")
 
 
-def _parameters(cell: Cell, design: Design, system: System, source: str) -> Any:
-    values: dict[str, Any] = {**design.fixed, **cell.factors}
+def _parameters(cell: Cell, system: System, source: str) -> Any:
+    values = dict(cell.said)
     where = f"{source}: cell {cell.number} ({cell.label})" if cell.factors else source
     arguments = {name: values.pop(name, None) for name in ARGUMENTS}
     for name, value in arguments.items():
