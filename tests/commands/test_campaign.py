@@ -98,7 +98,7 @@ def test_a_failing_run_is_recorded_and_run_again_on_request(tmp_path, capsys):
     assert campaign("run", "--workers", 1) == 1
     assert "0 now" in capsys.readouterr().out
     assert campaign("run", "--workers", 1, "--retry") == 1
-    assert "the run with seed 2 failed" in capsys.readouterr().err
+    assert "failed: cell 0 (booth.dwell_time = 1), seed 2\n" in capsys.readouterr().err
     assert campaign("collect") == 1
     assert [row["seed"] for row in rows()] == [1, 3, 1, 3]
 
@@ -125,7 +125,10 @@ def test_events_are_kept_if_the_design_says_so(tmp_path):
         (("robots = [5, 9]", "robbots = [5, 9]"), ["study.toml: factors.robbots", "Did you mean", "robots"]),
         (("robots = [5, 9]", "robots = [5, 900]"), ["study.toml: cell 2 (robots = 900", "less than or equal to 200"]),
         (("robots = [5, 9]", 'robots = [5, "nine"]'), ["cell 2 (robots = nine", "robots = 'nine': must be a whole"]),
-        (("robots = [5, 9]", "robots = [5, 5]"), ["cells 0 (robots = 5", "and 2 (robots = 5", "are the same runs"]),
+        (
+            ("robots = [5, 9]", "robots = [5, 5]"),
+            ["study.toml: cells 0 (robots = 5", "and 2 (robots = 5", "are the same runs"],
+        ),
         (("[1, 2.5]", '[1, "far"]'), ['booth.dwell_time = "far"', "valid number", "0 to 60 s"]),
         (("[1, 2.5]", "[1, true]"), ["booth.dwell_time = true", "valid number"]),
         (("[1, 2.5]", "[1, 99]"), ["booth.dwell_time = 99", "less than or equal to 60"]),
@@ -163,13 +166,13 @@ def test_a_wrong_option_is_refused_before_anything_starts(tmp_path, capsys, argu
 
 
 def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
     assert campaign("run", "--workers", 1, "--runs", 2) == 1  # the workers find other sources and say so
     assert "the sources were edited" in capsys.readouterr().err
     monkeypatch.undo()
     monkeypatch.chdir(tmp_path)
     assert campaign("run", "--workers", 2) == 0
-    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
     assert campaign("status") == 1
     said = capsys.readouterr().out
     assert "0 of 12 runs done, 0 failed, 12 missing" in said
@@ -193,7 +196,7 @@ def test_rows_of_sources_with_fewer_parameters_are_still_read(tmp_path, capsys, 
     assert campaign("run", "--workers", 1) == 0
     assert campaign("collect") == 0
     before = rows()
-    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
     monkeypatch.setattr(random_walk, "RANDOM_WALK", later_walk())
     capsys.readouterr()
     assert campaign("collect") == 2
@@ -345,8 +348,9 @@ def test_runs_of_other_folders_are_taken_over(tmp_path, capsys):
     assert "0 now" in capsys.readouterr().out
     campaign("collect")
     assert (tmp_path / "here" / "runs.parquet").read_bytes() == undisturbed
-    assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "here"]) == 2
+    assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "new"]) == 2
     assert "holds no results" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):
