@@ -1,5 +1,6 @@
 """A design is checked before anything starts; what is wrong is named with file, key and value."""
 
+import numpy as np
 import pytest
 
 from formicarium.campaigns.cells import cells_of
@@ -117,6 +118,13 @@ def test_all_kinds_of_files_say_the_same(tmp_path):
         (tmp_path / f"study.{kind}").write_text(text)
     found = [read_content(tmp_path / f"study.{kind}") for kind in TEXTS]
     assert found[0] == found[1] == found[2]
+
+
+def test_python_may_say_ranges_tuples_and_arrays():
+    found = cells(seeds=range(1, 4), factors={"a": np.linspace(1, 2, 3), "b": (np.int64(4), np.bool_(True))})
+    assert [cell.factors for cell in found[:3]] == [{"a": 1.0, "b": 4}, {"a": 1.0, "b": True}, {"a": 1.5, "b": 4}]
+    assert {type(cell.factors["b"]) for cell in found} == {int, bool}
+    assert found[0].seeds == (1, 2, 3)
 
 
 @pytest.mark.parametrize(

@@ -13,12 +13,12 @@ SCRIPT = """#!/bin/bash
 #SBATCH --job-name={name}
 #SBATCH --array=0-{last}
 #SBATCH --cpus-per-task={workers}
-#SBATCH --output={folder}/slurm/%A_%a.log
+#SBATCH --output="{folder}/slurm/%A_%a.log"
 {options}
 # Written by: formicarium campaign run --slurm-array {tasks}
 # Submit with: sbatch {script}
-# Task k runs every {tasks}th run of the design, beginning with run k. Submit it again if tasks were lost: what is
-# done is not repeated.
+# Task k does runs k, k + {tasks}, k + 2 * {tasks}, ... of the design. Submit it again if tasks were lost: what is done
+# is not repeated.
 cd {here}
 exec {command} --share "$SLURM_ARRAY_TASK_ID/{tasks}"
 """
@@ -59,7 +59,7 @@ def write_script(
         folder=folder,
         options="".join(f"#SBATCH {option}\n" for option in sbatch),
         tasks=tasks,
-        script=script,
+        script=shlex.quote(str(script)),
         here=shlex.quote(str(Path.cwd())),
         command=shlex.join([*words, *more]),
     )
