@@ -47,12 +47,11 @@ def write_answers(study: Study, figures: bool) -> int:
     summary, shown = _summaries(study, rows)
     write_csv(table.from_rows(summary), study.folder / "cells.csv")
     pictures = _draw(study, rows) if figures else []
-    total = sum(len(job.keys) for job in study.jobs)
-    screen.print(f"[bold]{study.design.name}[/bold]: {len(rows)} of {total} runs", highlight=False)
+    screen.print(f"[bold]{study.design.name}[/bold]: {len(rows)} of {study.total} runs", highlight=False)
     screen.print(shown)
     for path in [study.folder / name for name in ("runs.parquet", "runs.csv", "cells.csv")] + pictures:
         screen.print(f"results   {path}", highlight=False, soft_wrap=True)
-    return 0 if len(rows) == total else 1
+    return 0 if len(rows) == study.total else 1
 
 
 def write_csv(rows: pa.Table, path: Path) -> None:

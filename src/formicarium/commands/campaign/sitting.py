@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shlex
 import signal
 import sys
 import threading
@@ -118,12 +119,12 @@ def offer_script(study: Study, overrides: Overrides, request: Request, tasks: in
         raise UserError("--sbatch: only together with --slurm-array")
     if request.dask is not None or request.share is not None:
         raise UserError("--slurm-array: not together with --dask or --share")
-    more = ["--time-limit", f"{request.time_limit:g}"] if request.time_limit is not None else []
+    more = ["--time-limit", str(request.time_limit)] if request.time_limit is not None else []
     more += ["--retry"] if request.retry else []
     script = write_script(study, overrides, tasks, request.workers or 1, more, sbatch)
     console = Console()
     console.print(f"written   {script}", highlight=False, soft_wrap=True)
-    console.print(f"submit    sbatch {script}", highlight=False, soft_wrap=True)
+    console.print(f"submit    sbatch {shlex.quote(str(script))}", highlight=False, soft_wrap=True)
     return 0
 
 
@@ -154,9 +155,8 @@ def terminable() -> Iterator[None]:
 
 
 def _interrupted(study: Study, ledger: Ledger) -> str:
-    total = sum(len(job.keys) for job in study.jobs)
     done = sum(ledger.has(key) for job in study.jobs for key in job.keys)
-    return f"interrupted: {done} of {total} runs are done and kept in {study.folder}. The same command continues."
+    return f"interrupted: {done} of {study.total} runs are done and kept in {study.folder}. The same command continues."
 
 
 def _print(study: Study, report: Report) -> None:
@@ -175,8 +175,12 @@ def _print(study: Study, report: Report) -> None:
     )
     for note in report.notes:
         trouble.print(f"formicarium: {note}", highlight=False, soft_wrap=True, markup=False)
+    cells = {job.configuration.identity: job.cell for job in study.jobs}
     for run in report.failures[:SHOWN_FAILURES]:
-        said = f"\nformicarium: the run with seed {run.seed} {run.ending}:\n{run.failure.rstrip()}"
+        cell = cells[run.identity]
+        said = (
+            f"\nformicarium: {run.ending}: cell {cell.number} ({cell.label}), seed {run.seed}\n{run.failure.rstrip()}"
+        )
         trouble.print(said, highlight=False, soft_wrap=True, markup=False)
     if standing.failed:
         trouble.print(

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from formicarium.campaigns.cells import Cell, Job, cells_of, check_distinct
 from formicarium.campaigns.design import Design, make_design
 from formicarium.campaigns.design_file import read_content
+from formicarium.campaigns.errors import DesignError
 from formicarium.campaigns.ledger import Ledger
 from formicarium.commands.campaign.earlier import made_by
 from formicarium.commands.errors import UserError
@@ -44,6 +45,11 @@ class Study(NamedTuple):
     options: str = ""  # of the command line that other verbs need too, to mean the same runs
 
     @property
+    def total(self) -> int:
+        """Runs of all cells."""
+        return sum(len(job.cell.seeds) for job in self.jobs)
+
+    @property
     def manifest(self) -> dict[str, Any]:
         """What the folder says about itself."""
         return {"name": self.design.name, "system": self.design.system, "design": self.design.content()}
@@ -67,19 +73,24 @@ def study_of(content: Mapping[str, Any], source: str, out: str | None, overrides
     if unknown := [name for name in design.keep if name not in KEPT]:
         raise UserError(f"{source}: keep = {unknown[0]!r}: must be among {', '.join(KEPT)}")
     _check_names(design, system, source)
-    jobs = []
-    for cell in cells_of(design):
-        parameters = _parameters(cell, system, source)
-        configuration = configuration_of(system, parameters)
-        function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
-        jobs.append(Job(cell, configuration, function))
-    check_distinct(jobs)
+    try:
+        jobs = [_job(cell, design, system, source) for cell in cells_of(design)]
+        check_distinct(jobs)
+    except DesignError as error:
+        raise DesignError(f"{source}: {error}") from error
     if out == "":
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
     folder = Path(out or f"formicarium-results/{design.name}")
     if overrides.sources is not None:
         jobs = made_by(overrides.sources, jobs, Ledger(folder))
     return Study(source, design, system, jobs, folder, _options(out, overrides))
+
+
+def _job(cell: Cell, design: Design, system: System, source: str) -> Job:
+    parameters = _parameters(cell, system, source)
+    configuration = configuration_of(system, parameters)
+    function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
+    return Job(cell, configuration, function)
 
 
 def _options(out: str | None, overrides: Overrides) -> str:
