@@ -69,6 +69,15 @@ def test_a_campaign_from_plan_to_table(tmp_path, capsys):
     assert json.loads((tmp_path / "here" / "campaign.json").read_text())["design"]["name"] == "walk"
 
 
+def test_a_factor_may_be_a_list(tmp_path):
+    (tmp_path / "study.toml").write_text(DESIGN.replace('"booth.dwell_time" = [1, 2.5]', "lamps = [[1, 2], [3]]"))
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    assert [row["lamps"] for row in rows()] == (["[1, 2]"] * 3 + ["[3]"] * 3) * 2
+    assert pyarrow.csv.read_csv("here/cells.csv")["lamps"].to_pylist() == ["[1, 2]", "[3]"] * 2
+    assert exit_code(["campaign", "compare", "here", "here", "--a", "lamps=[1, 2]", "--b", "lamps=[3]"]) == 0
+
+
 def test_more_runs_only_add(capsys):
     campaign("run", "--workers", 1)
     campaign("collect")
@@ -281,6 +290,15 @@ def stand_in_sbatch(script):
         for task in range(last + 1)
     ]
     assert [task.wait(timeout=60) for task in tasks] == [0] * len(tasks)
+
+
+def test_a_task_of_an_array_tries_only_its_own_failures_again(tmp_path, capsys):
+    """What another task has seen fail meanwhile stays a failure."""
+    (tmp_path / "study.toml").write_text(f'name = "s"\nsystem = "{WALK}"\nseeds = [1, 2]\nset = {{ failing_seed = 1 }}')
+    assert campaign("run", "--share", "0/2") == 1
+    assert campaign("run", "--share", "1/2", "--retry") == 0
+    assert campaign("status") == 1
+    assert "1 of 2 runs done, 1 failed, 0 missing" in capsys.readouterr().out
 
 
 @pytest.mark.long  # the guide's test does nearly the same

@@ -7,7 +7,7 @@ import pyarrow as pa
 from rich.console import Console
 from rich.table import Table
 
-from formicarium.campaigns import table
+from formicarium.campaigns import lock, table
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.files import replacing
 from formicarium.campaigns.ledger import Ledger
@@ -42,10 +42,11 @@ def write_answers(study: Study, figures: bool) -> int:
             f"{study.folder}: no run of this design is done{besides}. "
             f"Start with: formicarium campaign run {study.source}{study.options}"
         )
-    table.write(rows, study.folder / "runs.parquet")
-    write_csv(rows, study.folder / "runs.csv")
     summary, shown = _summaries(study, rows)
-    write_csv(table.from_rows(summary), study.folder / "cells.csv")
+    with lock.held(study.folder / lock.NAME):  # another terminal may be collecting too
+        table.write(rows, study.folder / "runs.parquet")
+        write_csv(rows, study.folder / "runs.csv")
+        write_csv(table.from_rows(summary), study.folder / "cells.csv")
     pictures = _draw(study, rows) if figures else []
     screen.print(f"[bold]{study.design.name}[/bold]: {len(rows)} of {study.total} runs", highlight=False)
     screen.print(shown)

@@ -41,7 +41,7 @@ class Request(NamedTuple):
 
 
 def perform(study: Study, request: Request) -> int:
-    """Run what the campaign lacks and return the exit code: 0 if every run is done, 1 if some failed.
+    """Run what the campaign lacks and return the exit code: 0 if every run is done, 1 if not.
 
     Raises:
         UserError: if the request makes no sense.
@@ -52,7 +52,8 @@ def perform(study: Study, request: Request) -> int:
     share = _share(request.share)
     ledger = Ledger(study.folder)
     with terminable(), Writer(ledger, study.manifest, study.jobs) as writer:
-        forgotten = writer.forget_failures(key for job in study.jobs for key in job.keys) if request.retry else 0
+        keys = [key for job in study.jobs for key in job.keys][share[0] :: share[1]]
+        forgotten = writer.forget_failures(keys) if request.retry else 0
         writer.note_session({**session(sys.argv, PACKAGE, LIBRARIES), "retried": forgotten})
         trouble = Console(stderr=True)
         crew = _crew(study, request)
@@ -68,7 +69,7 @@ def perform(study: Study, request: Request) -> int:
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(_interrupted(study, ledger)) from None
         _print(study, report)
-        return 1 if report.standing.failed else 0
+        return 0 if report.standing.done == report.standing.total else 1
 
 
 def _check(request: Request) -> None:
