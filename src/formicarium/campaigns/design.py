@@ -134,6 +134,9 @@ def _in_words(problem: Any) -> str:
         return f"{place}: is missing"
     if not place:
         return message
+    message = {"dict_type": "must be a table: names with values", "list_type": "must be a list"}.get(
+        problem["type"], message
+    )
     if _is_value(steps):
         message = "must be a number, a text, true or false, or a list of those"
     return f"{place} = {json.dumps(problem['input'], default=str)}: {message}"

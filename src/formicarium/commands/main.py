@@ -4,7 +4,6 @@ Exit codes: 0 all well, 1 a run failed or something unexpected happened, 2 bad i
 Nothing heavy is imported before a verb needs it, so that ``--help`` answers at once.
 """
 
-import os
 import sys
 import tempfile
 import traceback
@@ -52,7 +51,7 @@ app.command(study)
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit."""
-    sys.path.append(os.getcwd())  # a reader's own system may be a file here; last, so that it hides nothing
+    sys.path.append("")  # a reader's own system may be a file in this folder; last, so that it hides nothing
     sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
 
 

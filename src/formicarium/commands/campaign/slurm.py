@@ -48,9 +48,7 @@ def write_script(
             raise UserError(f"--sbatch {option!r}: expected an option of sbatch, for example --sbatch=--time=01:00:00")
     folder = study.folder.resolve()
     words = [sys.executable, "-m", "formicarium.commands.main", "campaign", "run", str(Path(study.source).resolve())]
-    words += ["--out", str(folder), "--workers", str(workers)]
-    words += ["--runs", str(overrides.runs)] if overrides.runs is not None else []
-    words += [word for setting in overrides.settings for word in ("--set", setting)]
+    words += ["--out", str(folder), "--workers", str(workers), *overrides.words]
     script = folder / "slurm.sh"
     text = SCRIPT.format(
         name=study.design.name,

@@ -30,6 +30,12 @@ class Overrides(NamedTuple):
     settings: tuple[str, ...] = ()  # "name=value"
     sources: str | None = None  # hash of the sources that made the rows, instead of today's
 
+    @property
+    def words(self) -> list[str]:
+        """What decides which runs are meant, as it is typed."""
+        runs = ["--runs", str(self.runs)] if self.runs is not None else []
+        return runs + [word for setting in self.settings for word in ("--set", setting)]
+
 
 AS_DESIGNED = Overrides()
 
@@ -95,9 +101,7 @@ def _job(cell: Cell, design: Design, system: System, source: str) -> Job:
 
 def _options(out: str | None, overrides: Overrides) -> str:
     words = ["--out", out] if out else []
-    words += ["--runs", str(overrides.runs)] if overrides.runs is not None else []
-    words += [word for setting in overrides.settings for word in ("--set", setting)]
-    return "".join(f" {shlex.quote(word)}" for word in words)
+    return "".join(f" {shlex.quote(word)}" for word in words + overrides.words)
 
 
 def _system(design: Design, source: str) -> System:
