@@ -1,5 +1,6 @@
 """A reader's own system: a file beside the design, with the installed command, in a folder that was empty."""
 
+import os
 import shutil
 import subprocess
 import sysconfig
@@ -47,3 +48,20 @@ def test_the_sources_of_a_file_are_what_it_imports_and_those_of_a_package_are_al
     for path in (folder / "package" / "ground.py", inside / "mine.py"):
         shutil.copy(folder / "steps.py", path)
     assert [path.name for path in own_files(inside / "mine.py", "package.systems")] == ["ground.py", "mine.py"]
+
+
+def test_an_installed_package_registers_a_system_by_name(folder, monkeypatch):
+    """As pip leaves it: the package, and beside it what it registers."""
+    site, record = folder / "site", folder / "site" / "walkers-1.0.dist-info"
+    (site / "walkers").mkdir(parents=True)
+    record.mkdir()
+    (site / "walkers" / "__init__.py").touch()
+    shutil.copy(TESTS / "random_walk.py", site / "walkers" / "study.py")
+    (record / "METADATA").write_text("Metadata-Version: 2.1\nName: walkers\nVersion: 1.0\n")
+    (record / "entry_points.txt").write_text("[formicarium.systems]\nwalkers = walkers.study:RANDOM_WALK\n")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")]))
+    (folder / "study.toml").write_text('name = "w"\nsystem = "walkers"\nreplicates = 2\n[factors]\nrobots = [4, 5]\n')
+    done = formicarium(folder, "campaign", "run", "study.toml", "--workers", "2")
+    assert "4 of 4 runs done" in done.stdout, done.stderr
+    (site / "walkers" / "__init__.py").write_text("# edited\n")
+    assert "0 of 4 runs done" in formicarium(folder, "campaign", "status", "study.toml").stdout
