@@ -7,7 +7,7 @@ from formicarium.campaigns.cells import cells_of
 from formicarium.campaigns.design import make_design
 from formicarium.campaigns.design_file import read_content
 from formicarium.campaigns.errors import DesignError
-from formicarium.campaigns.seeds import derived_seed
+from formicarium.campaigns.seeds import derived_seeds
 
 PLAIN = {"name": "study", "system": "walk", "replicates": 3}
 
@@ -41,13 +41,13 @@ def test_derived_seeds_depend_on_study_cell_and_replicate_only():
     for factors, seeds in before.items():
         assert after[factors][:3] == seeds
     assert cells(name="other")[0].seeds != cells()[0].seeds
-    assert derived_seed("study", {"a": 1}, 0) == derived_seed("study", {"a": 1.0}, 0)
-    assert derived_seed("study", {"a": 1, "b": 2}, 0) == derived_seed("study", {"b": 2, "a": 1}, 0)
+    assert derived_seeds("study", {"a": 1}, 3) == derived_seeds("study", {"a": 1.0}, 3)
+    assert derived_seeds("study", {"a": 1, "b": 2}, 3) == derived_seeds("study", {"b": 2, "a": 1}, 3)
 
 
 def test_a_derived_seed_never_changes():
     """Seeds are part of published results; this one was computed once."""
-    assert derived_seed("study", {"a": 1}, 0) == 927883948533941
+    assert derived_seeds("study", {"a": 1}, 1) == (927883948533941,)
 
 
 def test_a_first_seed_counts_on_and_a_row_may_have_its_own():

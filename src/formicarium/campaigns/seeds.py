@@ -23,13 +23,14 @@ def seeds_of(design: Design, factors: Mapping[str, Any], first_seed: int | None)
     first = design.first_seed if first_seed is None else first_seed
     if first is not None:
         return tuple(range(first, first + design.count))
-    return tuple(derived_seed(design.name, factors, replicate) for replicate in range(design.count))
+    return derived_seeds(design.name, factors, design.count)
 
 
-def derived_seed(study: str, factors: Mapping[str, Any], replicate: int) -> int:
-    """Return a seed that looks random and is always the same: 0 to 2^53 - 1."""
-    text = json.dumps([study, plain(factors), replicate], sort_keys=True)
-    return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=8).digest()) >> (64 - BITS)
+def derived_seeds(study: str, factors: Mapping[str, Any], count: int) -> tuple[int, ...]:
+    """Return seeds that look random and are always the same, 0 to 2^53 - 1: hashes of ``[study, factors, k]``."""
+    start = json.dumps([study, plain(factors)], sort_keys=True).removesuffix("]")
+    texts = (f"{start}, {replicate}]".encode() for replicate in range(count))
+    return tuple(int.from_bytes(hashlib.blake2b(text, digest_size=8).digest()) >> (64 - BITS) for text in texts)
 
 
 def plain(value: Any) -> Any:
