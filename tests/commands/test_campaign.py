@@ -303,7 +303,7 @@ def test_a_task_of_an_array_tries_only_its_own_failures_again(tmp_path, capsys):
 
 @pytest.mark.long  # the guide's test does nearly the same
 def test_one_process_two_dask_and_a_slurm_array_give_the_same_bytes(tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(TESTS))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")]))
     found = {}
     ways = {
         "one": ["--workers", 1],
