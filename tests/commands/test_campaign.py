@@ -221,6 +221,19 @@ def test_rows_of_sources_with_fewer_parameters_are_still_read(tmp_path, capsys, 
     assert {row["duration_s"] for row in rows()} == {300.0}
 
 
+def test_cells_that_differ_in_seeds_only_are_still_read(tmp_path, monkeypatch):
+    rows_of_seeds = "".join(f"[[rows]]\nrobots = 5\nfirst_seed = {seed}\n" for seed in (1, 100))
+    (tmp_path / "study.toml").write_text(f'name = "walk"\nsystem = "{WALK}"\nreplicates = 2\n{rows_of_seeds}')
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    before = rows()
+    assert [(row["cell"], row["seed"]) for row in before] == [(0, 1), (0, 2), (1, 100), (1, 101)]
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(random_walk, "RANDOM_WALK", later_walk())
+    assert campaign("collect", "--sources", before[0]["sources"]) == 0
+    assert rows() == before
+
+
 def later_walk():
     """Return the system as other sources have it: with one parameter more, and another default."""
     trial = create_model("Trials", __base__=random_walk.Trials, patience=(float, 5.0))

@@ -13,7 +13,7 @@ from formicarium.systems.registry import System
 
 def sources_of(system: System) -> str:
     """Return the hash of all sources that decide the results of a system: 16 hexadecimal digits."""
-    run = inspect.unwrap(system.run)
+    run = system.run.func if isinstance(system.run, functools.partial) else inspect.unwrap(system.run)
     file = Path(inspect.getfile(run)).resolve()
     return source_hash() if file.is_relative_to(PACKAGE) else _own_hash(file, sys.modules[run.__module__].__package__)
 

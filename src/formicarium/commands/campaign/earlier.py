@@ -29,15 +29,12 @@ def made_by(sources: str, jobs: Sequence[Job], ledger: Ledger) -> list[Job]:
     stored, found = ledger.configurations(), {}
     for identity, job in earlier(jobs, ledger).items():
         if stored[identity]["sources"] == sources:
-            found[job.cell.number] = stored[identity]["parameters"]
-    return [
-        job._replace(
-            configuration=job.configuration._replace(
-                sources=sources, parameters=found.get(job.cell.number, job.configuration.parameters)
-            )
-        )
-        for job in jobs
-    ]
+            found[_text(job.cell.said)] = stored[identity]["parameters"]
+    made = []
+    for job in jobs:
+        parameters = found.get(_text(job.cell.said), job.configuration.parameters)
+        made.append(job._replace(configuration=job.configuration._replace(sources=sources, parameters=parameters)))
+    return made
 
 
 def _text(known: Any) -> str:

@@ -176,12 +176,10 @@ def _print(study: Study, report: Report) -> None:
     )
     for note in report.notes:
         trouble.print(f"formicarium: {note}", highlight=False, soft_wrap=True, markup=False)
-    cells = {job.configuration.identity: job.cell for job in study.jobs}
     for run in report.failures[:SHOWN_FAILURES]:
-        cell = cells[run.identity]
-        said = (
-            f"\nformicarium: {run.ending}: cell {cell.number} ({cell.label}), seed {run.seed}\n{run.failure.rstrip()}"
-        )
+        cell = next(job.cell for job in study.jobs if (run.identity, run.seed) in job.keys)
+        where = f"cell {cell.number} ({cell.label}), seed {run.seed}"
+        said = f"\nformicarium: {run.ending}: {where}\n{run.failure.rstrip()}"
         trouble.print(said, highlight=False, soft_wrap=True, markup=False)
     if standing.failed:
         trouble.print(
