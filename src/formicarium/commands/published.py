@@ -49,7 +49,7 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(cells[TABLE_1]), encoding="utf-8")
         written += [folder / "cells.csv", folder / "report.md"]
-    total = sum(len(job.keys) for study in studies.values() for job in study.jobs)
+    total = sum(study.total for study in studies.values())
     screen = Console()
     screen.print(f"[bold]sequencing[/bold]: drawn from {there} of {total} runs", highlight=False)
     for path in written:

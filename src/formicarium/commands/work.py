@@ -1,9 +1,7 @@
 """One run of a system as campaigns know it: seed in, row and tables out."""
 
-import inspect
 from collections.abc import Mapping
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -13,8 +11,8 @@ from formicarium import __version__
 from formicarium.campaigns.configuration import Configuration
 from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.result import Function, Result, Watch
+from formicarium.commands.sources import sources_of
 from formicarium.commands.tables import result_of
-from formicarium.compiled import PACKAGE, source_hash
 from formicarium.systems.registry import System, resolve
 from formicarium.trial.record import Trial
 
@@ -66,7 +64,7 @@ def _perform(
     seed: int,
     watch: Watch | None,
 ) -> Result:
-    if _sources(resolve(system)) != sources:
+    if sources_of(resolve(system)) != sources:
         raise ChangedSources("the sources were edited while the set ran; run the same command again")
     every = frames_every.get(seed)
     return result_of(run_trial(system, parameters, seed, every, watch), resolve(system).kinds, every)
@@ -80,10 +78,4 @@ def as_json(parameters: BaseModel) -> bytes:
 def configuration_of(system: System, parameters: BaseModel) -> Configuration:
     """Return what decides the results of a system with these parameters."""
     plain: Any = from_json(as_json(parameters))
-    return Configuration(system.name, plain, _sources(system), __version__)
-
-
-def _sources(system: System) -> str:
-    # The folder of a system that is not part of the package decides results as well.
-    folder = Path(inspect.getfile(inspect.unwrap(system.run))).resolve().parent
-    return source_hash(None if folder.is_relative_to(PACKAGE) else folder)
+    return Configuration(system.name, plain, sources_of(system), __version__)
