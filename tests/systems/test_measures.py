@@ -227,3 +227,26 @@ def test_the_condition_of_a_guardian_is_logged_whenever_it_changes(trial):
         assert before is None or (before[1] == 0 and now != before)
         last[who] = now
     assert len(last) >= 3
+
+
+def test_a_trial_without_runners_is_ended_and_counts_as_run_to_its_cap():
+    """TS-145, T25: twelve robots are too few, all join the chain; run on to the cap, nothing else comes of it."""
+    early, whole = (
+        MARK_I3.run(mark_i3_parameters(robots=12, swarm={"idle_limit": limit}), 5001) for limit in (100.0, 0.0)
+    )
+    ended, row = early.events[-1], early.outcome
+    assert ended["kind"] == EventKind.HOPELESS
+    assert row["hopeless_s"] == pytest.approx((ended["cycle"] + 1) * CYCLE)
+    assert whole.outcome["hopeless_s"] is None
+    assert row["duration_s"] == whole.outcome["duration_s"] == 2400.0
+    roles = early.events[early.events["kind"] == EventKind.ROLE]
+    last_runner = roles[roles["detail"] == Role.RUNNER]["cycle"][-1]
+    assert ended["cycle"] - last_runner + 1 == round(100.0 / CYCLE)
+    for name in ("success", "sequences", "time_chain_s", "time_1_s", "members", "cause"):
+        assert row[name] == whole.outcome[name]
+
+
+def test_a_trial_with_a_runner_left_is_not_ended():
+    same = MARK_I3.run(mark_i3_parameters(swarm={"idle_limit": 0.1}), 5002)
+    assert same.outcome["hopeless_s"] is None
+    assert same.outcome["success"] == 1

@@ -33,6 +33,26 @@ def note(state):
     clock = state.clock[0]
     if state.chain[0].sequences >= state.swarm[0].sequences:
         clock.finished = 1
+    elif state.swarm[0].idle_limit > 0.0:
+        note_idleness(state)
+
+
+@compiled
+def note_idleness(state):
+    """End a trial in which nobody has been a runner for a while (TS-145).
+
+    Chain members never become runners again, so nobody will do a task any more.
+    """
+    clock = state.clock[0]
+    chain = state.chain[0]
+    chain.idle += 1
+    for i in range(len(state.robots)):
+        if state.robots[i].alive == 1 and state.memories[i].role == Role.RUNNER:
+            chain.idle = 0
+            return
+    if chain.idle * state.world.settings[0].cycle_time >= state.swarm[0].idle_limit:
+        write_event(clock, state.events, EventKind.HOPELESS, 0, 0, 0, 0)
+        clock.finished = 1
 
 
 @compiled
@@ -193,7 +213,8 @@ def packed(payload):
 def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
     """Return the row of a finished trial: what was reached when, by how many, and if it failed, why.
 
-    Times are in seconds, None if not reached.
+    Times are in seconds, None if not reached. A trial that was ended as hopeless counts as run to its cap
+    (``duration_s``), and ``hopeless_s`` tells when it was ended.
     """
     cycle_time = float(state.world.settings[0].cycle_time)
     chain = state.chain[0]
@@ -211,6 +232,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     roles = state.memories.role[state.robots.alive == 1]  # a dead member is none
     goal = int(state.swarm[0].sequences)
     success = bool(chain.sequences >= goal)
+    hopeless = time_of(EventKind.HOPELESS)
     row: dict[str, int | float | str | None] = {
         "success": int(success),
         "sequences": int(chain.sequences),
@@ -218,7 +240,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "time_1_s": time_of(EventKind.SEQUENCE, 1),
         "time_5_s": time_of(EventKind.SEQUENCE, 5),
         "time_10_s": time_of(EventKind.SEQUENCE, 10),
-        "duration_s": round(float(state.clock[0].cycle) * cycle_time, 6),
+        "duration_s": round(float(state.clock[0].last_cycle if hopeless else state.clock[0].cycle) * cycle_time, 6),
+        "hopeless_s": hopeless,
         "members_at_completion": int(chain.members_complete) if chain.complete else None,
         "members": int((roles != Role.RUNNER).sum()),
         "guardians": int((roles == Role.GUARDIAN).sum()),

@@ -52,6 +52,14 @@ class SwarmTable(Table):
     robots: int = number(20, "1", "N [paper, Table 1]", ge=1, le=255)
     time_cap: float = number(2400.0, "s", "TC, the trial ends here at the latest [paper, Table 1]", gt=0, le=1e6)
     sequences: int = number(10, "1", "the trial ends when so many are complete [paper]", ge=1, le=100_000)
+    idle_limit: float = number(
+        0.0,
+        "s",
+        "a trial in which nobody has been a runner for so long is ended and counts as run to its cap: chain members "
+        "stay what they are, so nobody will do a task any more; 0: never [TS-145]",
+        ge=0,
+        le=1e6,
+    )
     failure_rate: float = number(
         0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0, le=10
     )
