@@ -124,7 +124,9 @@ def figure_s19(bases: Sequence[StudyCell]) -> Sheet:
         Panel("B  Robots in a branch", branches, "", "links", boxes=boxes, ticks=names),
     ]
     keys = [("dashed", "chain complete"), ("dotted", "first sequence")]
-    return Sheet("figure-s19", "Fig. S19: Mark II3 and Mark II4", [panels], names, ("blue", "red"), keys)
+    return Sheet(
+        "figure-s19", "Fig. S19: Mark II3 and Mark II4 in the smallest arena", [panels], names, ("blue", "red"), keys
+    )
 
 
 def _three_targets(cell: StudyCell) -> list[Curve]:

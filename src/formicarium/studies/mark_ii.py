@@ -16,6 +16,7 @@ from formicarium.studies.verdicts import (
     ALPHA,
     BETTER,
     COMPATIBLE,
+    LEAST_RUNS,
     RELIABLE,
     UNTESTABLE,
     WORSE,
@@ -63,7 +64,7 @@ def shorter_branches(study: Study) -> Answer:
 def _runs(study: Study, variant: str) -> list[Row]:
     runs = [run for levels in study[variant].values() for cell in levels.values() for run in cell.runs]
     if not runs:
-        raise Missing(f"no runs of {NAMES[variant]}")
+        raise Missing(f"{NAMES[variant]} has no cell with {LEAST_RUNS} runs")
     return runs
 
 

@@ -21,9 +21,9 @@ HOW = (
     "given in the finding."
 )
 POOLED = (
-    "Settings are pooled where the paper speaks of all of them at once (R11, R12, R14, R15: one difference in success, "
-    "each setting weighing as much in both groups); all cells of a variant are pooled in R18, which is conditioned on "
-    "the first sequence, in R20, and in the derived checks of the search, because the correct order is drawn from the "
+    "Settings are pooled where the paper speaks of all of them at once (R11, R12, R14, R15: one difference in success "
+    "over the settings that have runs on both sides); all cells of a variant are pooled in R18 (runs with a first "
+    "sequence), in R20, and in the derived checks of the search, because the correct order is drawn from the "
     "seed whatever N and arena."
 )
 VERDICT = {True: "passed", False: "FAILED", None: "not complete yet"}

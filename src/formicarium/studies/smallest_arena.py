@@ -19,6 +19,8 @@ from formicarium.studies.verdicts import (
 )
 from formicarium.systems.sequencing.study import published_run_times
 
+WHAT = {"time_chain_s": "chain", "time_1_s": "first", "time_5_s": "fifth", "time_10_s": "tenth"}
+
 
 def robots(study: Study) -> Answer:
     """R1: our simulated runs against the paper's ten on e-pucks."""
@@ -71,7 +73,7 @@ def alike(study: Study) -> Answer:
         sets = ours, [min(end, cap) for end in cell.ends], times, [cap] * len(times)
         p_values.append(log_rank(*sets).p_value)
         faster.append(hazard_ratio(*sets).value > 1)
-        said.append(f"{column}: median {in_words(cell.times(column).median)}")
+        said.append(f"{WHAT[column]}: median {in_words(cell.times(column).median)}")
     adjusted = holm(p_values)
     finding = "; ".join(f"{text}, p {p_value:.2g}" for text, p_value in zip(said, adjusted))
     return f"{finding} (log-rank against Table S3, Holm)", sum_up(faster, adjusted)

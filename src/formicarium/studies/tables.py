@@ -48,7 +48,7 @@ def compact(cells: Iterable[StudyCell]) -> list[dict[str, Any]]:
     """Return a row a run, in the order of the cells: what figures and report need, and nothing else."""
     return [
         {"setting": cell.setting, "robots": cell.robots, "cap_s": cell.cap, "seed": run["seed"]}
-        | {name: run.get(name) for name in RESULTS}
+        | {name: (run.get(name) or None) if name in TEXTS else run.get(name) for name in RESULTS}
         | {"sources": run["sources"]}
         for cell in cells
         for run in cell.runs

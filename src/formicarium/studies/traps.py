@@ -12,6 +12,7 @@ from formicarium.systems.sequencing.log import EventKind
 from formicarium.systems.sequencing.memory import Role
 
 NOISES = tuple(name for name in Epuck.model_fields if name.endswith(("noise", "floor", "loss", "miss")))
+FINE = ("executions", "failures", "packets_heard", "blobs_dropped")  # columns that any difference shows in
 Parameters = Mapping[str, Mapping[str, Any]]
 
 
@@ -159,7 +160,7 @@ def members_of(events: np.ndarray) -> int:
 
 
 def _results(row: Row) -> list[Any]:
-    return [row.get(name) for name in RESULTS]
+    return [row.get(name) for name in (*RESULTS, *FINE)]
 
 
 def _time_of(run: Again, count: int) -> float | None:

@@ -13,6 +13,7 @@ from formicarium.views.outlines import hull
 from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, colour
 
 SCALE = 0.62  # inches a metre
+EDGE = 0.03  # m round an arena
 GAP, TITLE, TOP, BOTTOM = 0.3, 0.6, 0.5, 0.45  # inches
 
 
@@ -31,7 +32,7 @@ def draw_arenas(title: str, rows: Sequence[Sequence[Ground]], path: Path) -> Pat
     Raises:
         StoreError: if the file cannot be written.
     """
-    sizes = [[np.ptp(_points(ground.scene), axis=0) * SCALE for ground in row] for row in rows]
+    sizes = [[(np.ptp(_points(ground.scene), axis=0) + 2 * EDGE) * SCALE for ground in row] for row in rows]
     width = max(sum(max(size[0], 1.5) + GAP for size in row) for row in sizes) + GAP
     height = TOP + sum(max(size[1] for size in row) + TITLE for row in sizes) + BOTTOM
     figure = new_figure(width, height)
@@ -70,4 +71,5 @@ def _draw(axes, ground: Ground) -> None:
             facecolors=INK, linewidths=0,
         )
     )  # fmt: skip
-    axes.set(xlim=(points[:, 0].min(), points[:, 0].max()), ylim=(points[:, 1].min(), points[:, 1].max()))
+    low, high = points.min(axis=0) - EDGE, points.max(axis=0) + EDGE
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))

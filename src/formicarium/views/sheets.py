@@ -16,8 +16,8 @@ from formicarium.studies.sheet import Box, Curve, Panel, Sheet
 from formicarium.views.figure import new_figure, plain, save
 from formicarium.views.style import CURVES, GRID, INK, PALE_INK, colour
 
-TOP, BOTTOM, LEFT, RIGHT = 0.95, 0.6, 0.75, 0.25  # inches around the panels
-ACROSS, UP = 0.55, 0.95  # inches between two panels
+TOP, BOTTOM, LEFT, RIGHT = 0.95, 0.6, 0.75, 0.35  # inches around the panels
+ACROSS, UP = 0.7, 0.95  # inches between two panels
 FLAG = CURVES[1]
 
 
@@ -94,13 +94,13 @@ def _draw_panel(axes: Axes, panel: Panel, shades: list, *, names_up: bool) -> No
         axes.set_ylim(0, 1.08 * max(1.0, *(max(box.values) for box in panel.boxes)))
         axes.yaxis.set_major_locator(MaxNLocator(6, integer=True))
     elif panel.end is not None:
-        axes.set(xlim=(panel.start, panel.end), ylim=(0, 1.03))
+        axes.set(xlim=(panel.start, panel.end * (1.25 if panel.start else 1.0)), ylim=(0, 1.03))
         if panel.start:
             axes.set_xscale("log")
-            axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
             axes.xaxis.set_minor_formatter(NullFormatter())
         else:
-            axes.xaxis.set_major_locator(MaxNLocator(5))
+            axes.xaxis.set_major_locator(MaxNLocator(4))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
     if not panel.curves and not panel.boxes:
         axes.set_yticks([])
