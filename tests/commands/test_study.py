@@ -1,6 +1,7 @@
 """``formicarium study sequencing``: from its runs to its figures, and from what is there."""
 
 import csv
+from time import perf_counter
 
 import pytest
 
@@ -40,6 +41,11 @@ def test_figure_s19_is_run_and_drawn_and_loaded_again(tmp_path, capsys):
     assert (tmp_path / "here" / "figure-s19.png").read_bytes() == picture
     assert study("--figure", "S19", "--collect-only") == 1  # 56 of the paper's 60 are missing
     assert study("--figure", "S19", "--sources", "0123456789abcdef") == 2
+    own = open_design("mark-ii3-table-1", Asked("S19", tmp_path)).jobs[0].configuration.sources
+    several = ("--sources", "0123456789abcdef", "--sources", own)
+    capsys.readouterr()
+    assert study("--figure", "S19", "--runs", "2", *several) == 0
+    assert "drawn from 4 of 4 runs" in capsys.readouterr().out
 
 
 def test_an_unfinished_study_is_drawn_as_far_as_it_goes(tmp_path, capsys):
@@ -102,3 +108,12 @@ def test_snapshots_arenas_and_trees_need_no_study(tmp_path):
     for figure in ("2", "3", "6", "S15", "S17"):
         assert study("--figure", figure, "--workers", "1") == 0
         assert (tmp_path / "here" / f"figure-{figure.lower()}.png").exists()
+
+
+@pytest.mark.long
+def test_a_new_user_makes_figure_4_in_ten_minutes(monkeypatch):
+    """Five runs a panel at the paper's caps, with one worker; hopeless runs are ended."""
+    monkeypatch.setattr(store, "MORE", ())
+    begun = perf_counter()
+    assert study("--figure", "4", "--runs", "5", "--workers", "1") == 0
+    assert perf_counter() - begun < 600.0

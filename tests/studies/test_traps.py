@@ -67,6 +67,8 @@ def test_other_seeds_missing_runs_and_stretched_caps_are_found():
     own = stored().cells[0]
     assert results(stored(seeds=[range(2, 32)]))[2] is False
     assert results(stored(seeds=[range(1, 41)]))[2] is None  # ten are still to come
+    short = own._replace(runs=own.runs[:10])
+    assert results(stored(cells=[short], seeds=[range(1, 11)]))[2] is None  # the paper has thirty
     assert results(stored(crashed=1))[2] is False
     assert results(stored(cells=[own._replace(cap=4800.0)]))[2] is False
     twice = own._replace(runs=[*own.runs[:-1], own.runs[0]])

@@ -39,7 +39,8 @@ def slower(study: Study, one: str, other: str, column: str = "time_10_s") -> Ans
     ratio = hazard_ratio(*_seconds(a, column), *_seconds(b, column))
     finding = (
         f"medians {in_words(a.times(column).median)} ({NAMES[one]}) and {in_words(b.times(column).median)} "
-        f"({NAMES[other]}), p {p_value:.2g} (log-rank)"
+        f"({NAMES[other]}), rate ratio {ratio.value:.2f} "
+        f"({ratio.low:.2f} to {ratio.high:.2f}), p {p_value:.2g} (log-rank)"
     )
     return finding, BETTER if p_value < ALPHA and ratio.value > 1 else COMPATIBLE
 
@@ -72,8 +73,10 @@ def alike(study: Study) -> Answer:
         ours = [time if time is not None and time < cap else None for time in _seconds(cell, column)[0]]
         sets = ours, [min(end, cap) for end in cell.ends], times, [cap] * len(times)
         p_values.append(log_rank(*sets).p_value)
-        faster.append(hazard_ratio(*sets).value > 1)
-        said.append(f"{WHAT[column]}: median {in_words(cell.times(column).median)}")
+        ratio = hazard_ratio(*sets)
+        faster.append(ratio.value > 1)
+        rates = f"rate ratio {ratio.value:.2f} ({ratio.low:.2f} to {ratio.high:.2f})"
+        said.append(f"{WHAT[column]}: median {in_words(cell.times(column).median)}, {rates}")
     adjusted = holm(p_values)
     finding = "; ".join(f"{text}, p {p_value:.2g}" for text, p_value in zip(said, adjusted))
     return f"{finding} (log-rank against Table S3, Holm)", sum_up(faster, adjusted)

@@ -28,7 +28,12 @@ def run_study(asked: Asked, one_in: int | None) -> int:
     code = max((perform(study, Request(workers=asked.workers)) for study in studies), default=0)
     if asked.figure in ("2", "all"):
         code = max(code, pictures.run_snapshots(asked.folder, asked.workers))
-    return max(code, checks.run_checks(studies, one_in, asked.workers) if one_in else 0)
+    if one_in:  # of all that is there, whatever the figure
+        whole = [
+            store.open_design(part.design, asked) for part in NEEDS.get(asked.figure, []) if part.design != PROLONGED
+        ]
+        code = max(code, checks.run_checks(whole, one_in, asked.workers))
+    return code
 
 
 def draw_study(asked: Asked) -> int:
