@@ -7,7 +7,7 @@ import pytest
 
 from formicarium.commands.main import exit_code
 from formicarium.commands.published import answers, store
-from formicarium.commands.published.store import NEEDS, Asked, needed, open_design
+from formicarium.commands.published.store import NEEDS, TABLES, Asked, Part, needed, open_design
 
 
 @pytest.fixture(autouse=True)
@@ -26,7 +26,13 @@ def study(*arguments):
 )
 def test_a_figure_runs_only_the_cells_that_it_shows(figure, runs, tmp_path):
     asked = Asked(figure, tmp_path)
-    assert sum(needed(open_design(part.design, asked), part.wanted).total for part in NEEDS[figure]) == runs
+    assert sum(needed(part, asked).total for part in NEEDS[figure]) == runs
+
+
+def test_settings_can_be_run_one_by_one(tmp_path):
+    part = Part(TABLES["mark-ii4"])
+    assert needed(part, Asked("7", tmp_path, runs=10, settings=(3, 4))).total == 160
+    assert len({job.cell.factors["setting"] for job in needed(part, Asked("7", tmp_path, settings=(3,))).jobs}) == 1
 
 
 def test_figure_s19_is_run_and_drawn_and_loaded_again(tmp_path, capsys):

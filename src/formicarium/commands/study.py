@@ -18,6 +18,7 @@ def study(
     figure: Literal["2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all"] = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
+    setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),
     workers: Whole | None = None,
     collect_only: Switch = False,
     check: Whole | None = None,
@@ -36,6 +37,7 @@ def study(
 
         formicarium study sequencing --figure 4 --runs 5
         formicarium study sequencing --out study
+        formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
 
     Parameters
@@ -48,6 +50,9 @@ def study(
         Folder of the campaigns, figures, tables and report.
     runs
         Runs of each cell, instead of the paper's 30.
+    setting
+        Run the cells of this setting alone (several times: of these); figures and
+        report still show all that is there.
     workers
         Processes that share the runs; one a core if not given.
     collect_only
@@ -69,7 +74,7 @@ def study(
     if check is not None and check < 1:
         raise UserError(f"--check {check}: must be at least 1")
     tables = Path(from_tables) if from_tables is not None else None
-    asked = Asked(figure, Path(out), runs, workers, sources, tables)
+    asked = Asked(figure, Path(out), runs, workers, sources, tuple(map(int, setting)), tables)
     runs_nothing = collect_only or sources or tables is not None
     code = 0 if runs_nothing else run_study(asked, check)
     return max(code, draw_study(asked))

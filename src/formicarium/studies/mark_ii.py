@@ -27,10 +27,10 @@ from formicarium.studies.verdicts import (
 )
 
 MARKS_II = tuple(name for name, variant in VARIANTS.items() if variant.mark == 2)
-FAULTS = ("no_answers", "protocol_faults", "disagreements", "unfounded", "mixed")  # columns that count them
+FAULTS = ("protocol_faults", "disagreements", "unfounded", "mixed")  # columns that count them
 # The causes that the paper guesses at -> words in ours.
 GUESSES = {
-    "branches interfere or merge": ("branch", "loop did not close", "unfinished chain", "no guardian"),
+    "branches interfere or merge": ("branch", "loop did not close", "unfinished chain"),
     "pushed links do not readjust": ("displaced", "did not get round"),
     "long runs": ("too slow", "still growing"),
 }

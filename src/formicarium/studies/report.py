@@ -16,9 +16,9 @@ HOW = (
     "Level 5 %. Where a statement is tested in several settings or on several targets, the p-values are adjusted "
     "together (Holm). Compatible: these runs do not contradict the paper, which is less than proving it right. Better "
     "and worse are meant for the swarm: a verdict of better says that ours does something clearly better than the "
-    "paper's, which is a difference too. Every statement has one test, fixed from its wording before runs of Marks I4, "
-    "II3 and II4 were looked at; what the paper leaves open (linear, about the same, reliably) has a number of ours, "
-    "given in the finding."
+    "paper's, which is a difference too. Every statement has one test, fixed from its wording before the listed runs "
+    "of Marks I4, II3 and II4 were made; what the paper leaves open (linear, about the same, reliably) has a number of "
+    "ours, given in the finding."
 )
 POOLED = (
     "Settings are pooled where the paper speaks of all of them at once (R11, R12, R14, R15: one difference in success "

@@ -1,5 +1,5 @@
 """How a statement of the paper is judged. Tests and thresholds come from its wording and from what a run of thirty
-can tell, and were fixed before a run of Marks I4, II3 and II4 was looked at; they are the same for all variants.
+can tell, and were fixed before the listed runs of Marks I4, II3 and II4 were made; they are the same for all variants.
 """
 
 import math
@@ -69,7 +69,7 @@ def against_each(cells: dict[int, StudyCell], paper: tuple[int, int]) -> Answer:
         for (setting, cell), p_value in zip(cells.items(), p_values)
     ]
     higher = [cell.successes / len(cell.runs) > paper[0] / paper[1] for cell in cells.values()]
-    finding = f"{'; '.join(said)} (Fisher against {paper[0]}/{paper[1]}{', Holm' if len(cells) > 1 else ''})"
+    finding = f"{'; '.join(said)} (Fisher against the paper's {share_of(*paper)}{', Holm' if len(cells) > 1 else ''})"
     return finding, sum_up(higher, p_values)
 
 

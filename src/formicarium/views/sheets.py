@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator, NullFormatter, PercentFormatter, StrM
 
 from formicarium.studies.sheet import Box, Curve, Panel, Sheet
 from formicarium.views.figure import new_figure, plain, save
-from formicarium.views.style import CURVES, GRID, INK, PALE_INK, colour
+from formicarium.views.style import CURVES, GRID, INK, PALE_INK, PAPER, colour
 
 TOP, BOTTOM, LEFT, RIGHT = 0.95, 0.6, 0.75, 0.35  # inches around the panels
 ACROSS, UP = 0.7, 0.95  # inches between two panels
@@ -77,7 +77,7 @@ def _draw_panel(axes: Axes, panel: Panel, shades: list, *, names_up: bool) -> No
         reach = [[share.value - share.low], [share.high - share.value]]
         axes.errorbar([place], [share.value], reach, fmt="D", color=FLAG, ms=5, capsize=4, lw=1.6, zorder=5)
         axes.plot([], [], "D", color=FLAG, ms=5, label=label)
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), frameon=False, fontsize=9)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), facecolor=PAPER, edgecolor="none", fontsize=9)
     for box in panel.boxes:
         _draw_box(axes, box, panel, INK if box.shade is None else shades[box.shade])
     if panel.line and panel.boxes:

@@ -24,14 +24,12 @@ Cells = dict[str, list[StudyCell]]  # design -> its cells
 
 def run_study(asked: Asked, one_in: int | None) -> int:
     """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
-    studies = [store.needed(store.open_design(part.design, asked), part.wanted) for part in NEEDS.get(asked.figure, [])]
-    code = max((perform(study, Request(workers=asked.workers)) for study in studies), default=0)
+    parts = NEEDS.get(asked.figure, [])
+    code = max((perform(store.needed(part, asked), Request(workers=asked.workers)) for part in parts), default=0)
     if asked.figure in ("2", "all"):
         code = max(code, pictures.run_snapshots(asked.folder, asked.workers))
     if one_in:  # of all that is there, whatever the figure
-        whole = [
-            store.open_design(part.design, asked) for part in NEEDS.get(asked.figure, []) if part.design != PROLONGED
-        ]
+        whole = [store.open_design(part.design, asked) for part in parts if part.design != PROLONGED]
         code = max(code, checks.run_checks(whole, one_in, asked.workers))
     return code
 
@@ -48,9 +46,9 @@ def draw_study(asked: Asked) -> int:
     studies = {name: store.open_design(name, asked) for name in (PROLONGED, *TABLES.values())}
     cells: Cells = {name: _cells(name, study, asked) for name, study in studies.items()}
     parts = NEEDS.get(asked.figure, [])
-    wanted = [(part, cell) for part in parts for cell in cells[part.design] if part.wanted(cell)]
-    there = sum(len(cell.runs) for _, cell in wanted)
-    total = sum(store.needed(studies[part.design], part.wanted).total for part in parts)
+    wanted = [cell for part in parts for cell in cells[part.design] if store.is_asked(cell, part, asked)]
+    there = sum(len(cell.runs) for cell in wanted)
+    total = sum(store.needed(part, asked).total for part in parts)
     if parts and not there:
         words = f" and sources {', '.join(asked.sources)}" if asked.sources else ""
         raise UserError(f"{asked.folder}: no run of this study{words} is there. Run it first.")
@@ -85,12 +83,14 @@ def _table_1(cells: Cells) -> list[StudyCell]:
     found = [cell for design in TABLES.values() for cell in cells[design]]
     base = grid(store.cut(cells[PROLONGED]))["mark-i3"].get(0, {}).get(0)
     return [
-        base if base and store._base(cell) and cell.variant == "mark-i3" and not cell.runs else cell for cell in found
+        base if base and store.is_base(cell) and cell.variant == "mark-i3" and not cell.runs else cell for cell in found
     ]
 
 
 def _sheets(figure: str, cells: Cells) -> list[Sheet]:
-    bases = cells[PROLONGED] + [cell for name in list(TABLES.values())[1:] for cell in cells[name] if store._base(cell)]
+    bases = cells[PROLONGED] + [
+        cell for name in list(TABLES.values())[1:] for cell in cells[name] if store.is_base(cell)
+    ]
     sheets = []
     if figure in ("4", "all"):
         sheets.append(figure_4(published_run_times(), bases))

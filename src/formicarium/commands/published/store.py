@@ -26,6 +26,7 @@ class Asked(NamedTuple):
     runs: int | None = None
     workers: int | None = None
     sources: tuple[str, ...] = ()
+    settings: tuple[int, ...] = ()  # all if empty
     tables: Path | None = None  # to read rows from, instead of the campaigns
 
 
@@ -36,21 +37,23 @@ class Part(NamedTuple):
     wanted: Wanted = lambda cell: True
 
 
-def _default(cell: StudyCell) -> bool:
+def is_default(cell: StudyCell) -> bool:
+    """Tell whether a cell has the default number of robots."""
     return cell.level == 0
 
 
-def _base(cell: StudyCell) -> bool:
+def is_base(cell: StudyCell) -> bool:
+    """Tell whether it has so in the smallest arena."""
     return cell.level == 0 and cell.setting == 0
 
 
 WHOLE = [Part(PROLONGED), *(Part(design) for design in TABLES.values())]
 NEEDS: dict[str, list[Part]] = {
-    "4": [Part(PROLONGED), *(Part(design, _base) for design in list(TABLES.values())[1:])],
+    "4": [Part(PROLONGED), *(Part(design, is_base) for design in list(TABLES.values())[1:])],
     "5": [Part(TABLES["mark-i3"]), Part(TABLES["mark-i4"])],
     "7": [Part(TABLES["mark-ii3"]), Part(TABLES["mark-ii4"])],
-    "S18": [Part(TABLES["mark-i3"], _default)],
-    "S19": [Part(TABLES["mark-ii3"], _base), Part(TABLES["mark-ii4"], _base)],
+    "S18": [Part(TABLES["mark-i3"], is_default)],
+    "S19": [Part(TABLES["mark-ii3"], is_base), Part(TABLES["mark-ii4"], is_base)],
     "all": WHOLE,
 }  # the other figures are drawn from the implementation
 
@@ -88,9 +91,15 @@ def cells_of(study: Study) -> list[StudyCell]:
     return [empty_cell(study, job)._replace(runs=runs.get(job.cell.number, [])) for job in study.jobs]
 
 
-def needed(study: Study, wanted: Wanted) -> Study:
-    """Return a campaign with those of its cells alone that a figure needs."""
-    return study._replace(jobs=[job for job in study.jobs if wanted(empty_cell(study, job))])
+def is_asked(cell: StudyCell, part: Part, asked: Asked) -> bool:
+    """Tell whether a person wants a cell: the figure shows it, and its setting was not left out."""
+    return part.wanted(cell) and (not asked.settings or cell.setting in asked.settings)
+
+
+def needed(part: Part, asked: Asked) -> Study:
+    """Return the campaign of a part with those of its cells alone that are asked for."""
+    study = open_design(part.design, asked)
+    return study._replace(jobs=[job for job in study.jobs if is_asked(empty_cell(study, job), part, asked)])
 
 
 def cut(cells: Iterable[StudyCell]) -> list[StudyCell]:
