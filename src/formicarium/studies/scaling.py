@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from statistics import fmean, median
+from typing import NamedTuple
 
 from formicarium.statistics.compare import fisher
 from formicarium.statistics.effects import holm
@@ -45,20 +46,14 @@ def linear(study: Study) -> Answer:
     )
 
 
-class Against:
+class Against(NamedTuple):
     """One level of a variant against the default, setting by setting and in all settings that have both."""
 
-    def __init__(self, study: Study, variant: str, level: int) -> None:
-        """Compare, or raise Missing."""
-        pairs = [(k, own[level], own[0]) for k, own in sorted(study[variant].items()) if level in own and 0 in own]
-        if not pairs:
-            raise Missing(f"no setting has runs of {NAMES[variant]} with {level_name(level)} and with the default")
-        self.settings = [k for k, _, _ in pairs]
-        self.counts = [(*one.counts, *two.counts) for _, one, two in pairs]
-        self.p_values = holm([fisher(*counts).p_value for counts in self.counts])
-        self.higher = [a / n > b / m for a, n, b, m in self.counts]
-        self.pooled = (*pooled(one for _, one, _ in pairs), *pooled(two for _, _, two in pairs))
-        self.p_value = fisher(*self.pooled).p_value
+    settings: list[int]
+    counts: list[tuple[int, int, int, int]]  # successes and runs at the level, successes and runs with the default
+    p_values: list[float]  # of the settings, after Holm
+    pooled: tuple[int, int, int, int]  # all settings together
+    p_value: float
 
     @property
     def change(self) -> float:
@@ -68,7 +63,8 @@ class Against:
     @property
     def lower_in(self) -> int:
         """Settings in which success is significantly lower than with the default."""
-        return sum(not up and p_value < ALPHA for up, p_value in zip(self.higher, self.p_values))
+        pairs = zip(self.counts, self.p_values)
+        return sum(a / n < b / m and p_value < ALPHA for (a, n, b, m), p_value in pairs)
 
     @property
     def finding(self) -> str:
@@ -86,16 +82,27 @@ class Against:
         return f"all {len(self.settings)} together: {a}/{n} against {b}/{m}, p {self.p_value:.2g} (Fisher)"
 
 
+def against_default(study: Study, variant: str, level: int) -> Against:
+    """Compare a level with the default by Fisher's exact test, or raise Missing."""
+    pairs = [(k, own[level], own[0]) for k, own in sorted(study[variant].items()) if level in own and 0 in own]
+    if not pairs:
+        raise Missing(f"no setting has runs of {NAMES[variant]} with {level_name(level)} and with the default")
+    counts = [(*one.counts, *two.counts) for _, one, two in pairs]
+    together = (*pooled(one for _, one, _ in pairs), *pooled(two for _, _, two in pairs))
+    p_values = holm([fisher(*four).p_value for four in counts])
+    return Against([k for k, _, _ in pairs], counts, p_values, together, fisher(*together).p_value)
+
+
 def more_help(study: Study, variant: str) -> Answer:
     """R11, R12: success with +20 % is not lower than with the default."""
-    found = Against(study, variant, 20)
+    found = against_default(study, variant, 20)
     worse = (found.change < 0 and found.p_value < ALPHA) or found.lower_in
     return found.finding, WORSE if worse else COMPATIBLE
 
 
 def fewer_degrade(study: Study, variant: str) -> Answer:
     """R11, R12: success with -20 % is lower than with the default."""
-    found = Against(study, variant, -20)
+    found = against_default(study, variant, -20)
     return found.finding, COMPATIBLE if found.change < 0 and found.p_value < ALPHA else BETTER
 
 
@@ -103,7 +110,7 @@ def _crowds(study: Study, variant: str, least: int) -> list[tuple[int, Against]]
     found = []
     for level in (level for level in LEVELS if level >= least):
         try:
-            found.append((level, Against(study, variant, level)))
+            found.append((level, against_default(study, variant, level)))
         except Missing:
             continue
     if not found:

@@ -149,7 +149,8 @@ def members(stored: Stored) -> Found:
     )
     logged = sum(members_of(run.events) == run.stored["members"] for run in stored.again)
     finding = f"{wrong} rows that do not add up; by the log {logged} of {len(stored.again)} runs done again"
-    return finding, wrong == 0 and logged == len(stored.again)
+    sound = wrong == 0 and logged == len(stored.again)
+    return finding, (None if sound and not stored.again else sound)
 
 
 def members_of(events: np.ndarray) -> int:
