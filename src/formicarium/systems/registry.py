@@ -15,6 +15,7 @@ from formicarium.trial.record import Timeline, Trial
 
 BUILT_IN = {
     "mark-i3": "formicarium.systems.sequencing.study:MARK_I3",
+    "partitioning": "formicarium.systems.partitioning.study:PARTITIONING",
 }
 GROUP = "formicarium.systems"
 

@@ -1,0 +1,102 @@
+"""Into a booth by its light, and out of it by the compass (TP-34, TP-44)."""
+
+import math
+
+from formicarium.angles import wrapped
+from formicarium.compiled import compiled
+from formicarium.control.moves import drive, steer, stop
+from formicarium.control.odometry import bearing_to, distance_to, place
+from formicarium.robots.records import Colour
+from formicarium.systems.partitioning.navigation import back_off, obstacle_ahead, walk
+from formicarium.systems.partitioning.perception import nearest_blob
+
+GOING = 0  # results of ``dock``
+ACKNOWLEDGED = 1
+LOST = 2
+
+
+@compiled
+def sight_target(reading, memory, table, colour):
+    """Find the light of the booth made for: the one nearest to where it should be, or, at first, to the robot."""
+    best = -1
+    if memory.target.known == 0:
+        best = nearest_blob(reading, colour)
+    else:
+        nearest = table.target_gate
+        for k in range(reading.blob_count):
+            blob = reading.blobs[k]
+            if blob.colour == colour:
+                dx = blob.distance * math.cos(blob.bearing) - memory.target.x
+                dy = blob.distance * math.sin(blob.bearing) - memory.target.y
+                away = math.sqrt(dx * dx + dy * dy)
+                if away < nearest:
+                    nearest = away
+                    best = k
+    if best >= 0:
+        blob = reading.blobs[best]
+        place(memory.target, blob.distance, blob.bearing, reading.cycle)
+        memory.target_seen = reading.cycle
+
+
+@compiled
+def dock(reading, memory, command, table, epuck, colour):
+    """Drive into the booth whose light has this colour; return GOING, ACKNOWLEDGED or LOST.
+
+    Acknowledged is a robot that has made for the colour up to the booth and sees red right before it.
+    """
+    if memory.since == reading.cycle or memory.target.known == 0:
+        memory.target.known = 0
+        memory.target_seen = reading.cycle
+    sight_target(reading, memory, table, colour)
+    far = distance_to(memory.target) if memory.target.known == 1 else 10.0
+    red = nearest_blob(reading, Colour.RED)
+    if red >= 0 and reading.blobs[red].distance < table.inside and far < 1.5 * table.inside:
+        memory.target.known = 0
+        stop(command)
+        return ACKNOWLEDGED
+    patience = table.lost_cycles * (3 if far < 1.5 * table.inside else 1)
+    late = reading.cycle - memory.since > table.docking_patience
+    if late:
+        back_off(reading, memory, table)
+    if late or reading.cycle - memory.target_seen > patience or memory.target.known == 0:
+        memory.target.known = 0
+        return LOST
+    direction = bearing_to(memory.target)
+    if far > table.committed:
+        walk(reading, memory, command, table, epuck, memory.heading + direction, table.speed)
+    else:
+        steer(command, direction, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
+    return GOING
+
+
+@compiled
+def begin_leaving(memory, cycle, heading):
+    """Get ready to leave a booth whose mouth lies in the direction ``heading``."""
+    memory.leaving = 1
+    memory.leaving_since = cycle
+    memory.exit_heading = heading
+    memory.travelled = 0.0
+    memory.pressed = 0
+
+
+@compiled
+def leave(reading, memory, command, table, epuck):
+    """Turn round in the bay and drive out; who stands before the mouth is waited for."""
+    error = wrapped(memory.exit_heading - memory.heading)
+    if memory.leaving == 1:
+        if math.fabs(error) > 0.1:
+            drive(command, 0.0, math.copysign(table.turn_rate, error), epuck.wheel_distance)
+            return
+        memory.leaving = 2
+        memory.leaving_since = reading.cycle
+    waited = reading.cycle - memory.leaving_since
+    if obstacle_ahead(reading, table) > table.exit_value and waited < table.exit_patience:
+        stop(command)
+        return
+    steer(command, error, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
+    if obstacle_ahead(reading, table) <= table.exit_value:
+        memory.travelled += memory.odometer.forward
+    elif waited > 2 * table.exit_patience:
+        memory.leaving_since = reading.cycle
+    if memory.travelled > table.exit_distance:
+        memory.leaving = 0
