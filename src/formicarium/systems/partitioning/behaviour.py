@@ -14,7 +14,7 @@ from formicarium.systems.partitioning.choices import (
     note_deed,
     start_wait,
 )
-from formicarium.systems.partitioning.docking import ACKNOWLEDGED, LOST, begin_leaving, dock, leave
+from formicarium.systems.partitioning.docking import ACKNOWLEDGED, LOST, begin_leaving, dock, leave, strayed
 from formicarium.systems.partitioning.memory import Deed, Ground, Label, State, enter
 from formicarium.systems.partitioning.navigation import (
     BACK,
@@ -28,8 +28,6 @@ from formicarium.systems.partitioning.navigation import (
     walk,
 )
 from formicarium.systems.partitioning.perception import nearest_blob, perceive
-
-AREA_SPREAD = 1.6  # rad, of the directions in which a robot roams that sees no booth
 
 
 @compiled
@@ -51,7 +49,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
     perceive(reading, memory, table, chart, epuck)
     if asleep:
         wake(reading, memory, strategy, chart)
-    if memory.leaving > 0:
+    if memory.leaving > 0 or (is_walking(memory) and strayed(reading, memory, table)):
         leave(reading, memory, command, table, epuck)
     elif not escape(reading, memory, command, table, epuck):
         if memory.state == State.GO_SOURCE:
@@ -85,6 +83,15 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
 
 
 @compiled
+def is_walking(memory):
+    """Tell whether the robot has no business in any booth now."""
+    state = memory.state
+    entering = state == State.ENTER_SOURCE or state == State.ENTER_NEST
+    entering = entering or state == State.ENTER_DROP or state == State.ENTER_PICK
+    return not entering and state != State.DROPPING and state != State.PICKING
+
+
+@compiled
 def on_nest_side(memory):
     """Tell whether the floor is that of the nest area or of the cache's access zone there."""
     return memory.ground == Ground.NEST_AREA or memory.ground == Ground.PICK_ZONE
@@ -114,12 +121,13 @@ def wake(reading, memory, strategy, chart):
 def go_source(reading, memory, command, table, epuck):
     """Look for a green light in the source area."""
     if not on_source_side(memory):
+        arrive(reading, memory, table.return_cycles)
         follow_corridor(reading, memory, command, table, epuck, False)
     elif nearest_blob(reading, Colour.GREEN) >= 0:
         enter(memory, State.ENTER_SOURCE, reading.cycle)
         dock(reading, memory, command, table, epuck, Colour.GREEN)
     else:
-        look_about(reading, memory, command, table, epuck, BACK, AREA_SPREAD, table.speed)
+        look_about(reading, memory, command, table, epuck, BACK, table.speed)
 
 
 @compiled
@@ -169,7 +177,7 @@ def corridor_to_nest(reading, memory, command, table, epuck):
     """Carry the object through the corridor."""
     if on_nest_side(memory):
         enter(memory, State.GO_NEST, reading.cycle)
-        arrive(reading, memory, table)
+        arrive(reading, memory, table.arrival_cycles)
     follow_corridor(reading, memory, command, table, epuck, True)
 
 
@@ -180,12 +188,13 @@ def corridor_to_nest(reading, memory, command, table, epuck):
 def go_nest(reading, memory, command, table, epuck):
     """Look for a blue light in the nest area."""
     if not on_nest_side(memory):
+        arrive(reading, memory, table.return_cycles)
         follow_corridor(reading, memory, command, table, epuck, True)
     elif nearest_blob(reading, Colour.BLUE) >= 0:
         enter(memory, State.ENTER_NEST, reading.cycle)
         dock(reading, memory, command, table, epuck, Colour.BLUE)
     else:
-        look_about(reading, memory, command, table, epuck, FORWARD, AREA_SPREAD, table.speed)
+        look_about(reading, memory, command, table, epuck, FORWARD, table.speed)
 
 
 @compiled
@@ -235,7 +244,7 @@ def corridor_to_source(reading, memory, command, table, epuck):
     """Go back through the corridor, empty."""
     if on_source_side(memory):
         enter(memory, State.GO_SOURCE, reading.cycle)
-        arrive(reading, memory, table)
+        arrive(reading, memory, table.arrival_cycles)
     follow_corridor(reading, memory, command, table, epuck, False)
 
 
@@ -266,10 +275,19 @@ def at_cache(memory, to_pick):
 @compiled
 def approach_cache(reading, memory, command, table, epuck, to_pick):
     """Walk to the cache's access zone."""
-    if at_cache(memory, to_pick):
+    if reading.cycle < memory.roam_until and not in_zone(memory):
+        walk(reading, memory, command, table, epuck, memory.roam_heading, table.speed)
+    elif at_cache(memory, to_pick):
         walk(reading, memory, command, table, epuck, BACK if to_pick else FORWARD, table.speed)
     else:
+        arrive(reading, memory, table.return_cycles)
         walk(reading, memory, command, table, epuck, corridor_heading(memory, to_pick), table.speed)
+
+
+@compiled
+def in_zone(memory):
+    """Tell whether the robot stands in an access zone of the cache."""
+    return memory.ground == Ground.DROP_ZONE or memory.ground == Ground.PICK_ZONE
 
 
 @compiled
@@ -288,6 +306,6 @@ def wait(reading, memory, command, table, strategy, chart, epuck, to_pick):
         enter(memory, State.CORRIDOR_TO_SOURCE if to_pick else State.CORRIDOR_TO_NEST, reading.cycle)
     elif memory.ground == (Ground.PICK_ZONE if to_pick else Ground.DROP_ZONE):
         heading = BACK if to_pick else FORWARD
-        look_about(reading, memory, command, table, epuck, heading, 3.1, 0.5 * table.speed)
+        look_about(reading, memory, command, table, epuck, heading, 0.5 * table.speed)
     else:
         approach_cache(reading, memory, command, table, epuck, to_pick)

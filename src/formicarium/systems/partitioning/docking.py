@@ -7,8 +7,11 @@ from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to, place
 from formicarium.robots.records import Colour
-from formicarium.systems.partitioning.navigation import back_off, obstacle_ahead, walk
+from formicarium.systems.partitioning.navigation import BACK, FORWARD, back_off, is_area, obstacle_ahead, walk
 from formicarium.systems.partitioning.perception import nearest_blob
+
+FRONT_LEFT = 7  # sensor that looks ahead, like number 0: the only two that do not see the walls of a bay
+RIGHT, LEFT = 2, 5  # sensors that look straight aside
 
 GOING = 0  # results of ``dock``
 ACKNOWLEDGED = 1
@@ -49,8 +52,7 @@ def dock(reading, memory, command, table, epuck, colour):
         memory.target_seen = reading.cycle
     sight_target(reading, memory, table, colour)
     far = distance_to(memory.target) if memory.target.known == 1 else 10.0
-    red = nearest_blob(reading, Colour.RED)
-    if red >= 0 and reading.blobs[red].distance < table.inside and far < 1.5 * table.inside:
+    if red_ahead(reading, table) and far < 1.5 * table.inside:
         memory.target.known = 0
         stop(command)
         return ACKNOWLEDGED
@@ -60,6 +62,8 @@ def dock(reading, memory, command, table, epuck, colour):
         back_off(reading, memory, table)
     if late or reading.cycle - memory.target_seen > patience or memory.target.known == 0:
         memory.target.known = 0
+        if far < table.committed:
+            begin_leaving(memory, reading.cycle, out_of(memory))
         return LOST
     direction = bearing_to(memory.target)
     if far > table.committed:
@@ -67,6 +71,43 @@ def dock(reading, memory, command, table, epuck, colour):
     else:
         steer(command, direction, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
     return GOING
+
+
+@compiled
+def out_of(memory):
+    """Return the heading out of a booth that the robot faces: all booths open towards source or nest."""
+    return BACK if math.cos(memory.heading) > 0.0 else FORWARD
+
+
+@compiled
+def red_ahead(reading, table):
+    """Tell whether the robot has the red light of its own booth right before it."""
+    red = nearest_blob(reading, Colour.RED)
+    return red >= 0 and reading.blobs[red].distance < table.inside
+
+
+@compiled
+def walled(reading, memory, table):
+    """Tell whether there are walls close by on both sides of a robot that faces into or out of a bay."""
+    right = reading.proximity[RIGHT]
+    left = reading.proximity[LEFT]
+    level = math.fabs(math.cos(memory.heading)) > 0.7 and is_area(memory.ground)
+    return level and min(left, right) > table.bay_least and left + right > table.bay_sum
+
+
+@compiled
+def strayed(reading, memory, table):
+    """Tell whether the robot, without meaning to, is in a bay, and get ready to leave it.
+
+    It has red right before it, or walls close by on both sides while it faces into or out of a bay.
+    """
+    facing = red_ahead(reading, table)
+    if not facing and not walled(reading, memory, table):
+        return False
+    blocked = obstacle_ahead(reading, table) > 0.0
+    out = out_of(memory)
+    begin_leaving(memory, reading.cycle, out if facing or blocked else wrapped(out + math.pi))
+    return True
 
 
 @compiled
@@ -81,7 +122,7 @@ def begin_leaving(memory, cycle, heading):
 
 @compiled
 def leave(reading, memory, command, table, epuck):
-    """Turn round in the bay and drive out; who stands before the mouth is waited for."""
+    """Turn round in the bay and drive out; inside, who stands before the mouth is waited for."""
     error = wrapped(memory.exit_heading - memory.heading)
     if memory.leaving == 1:
         if math.fabs(error) > 0.1:
@@ -89,14 +130,17 @@ def leave(reading, memory, command, table, epuck):
             return
         memory.leaving = 2
         memory.leaving_since = reading.cycle
-    waited = reading.cycle - memory.leaving_since
-    if obstacle_ahead(reading, table) > table.exit_value and waited < table.exit_patience:
-        stop(command)
+    if red_ahead(reading, table):
+        begin_leaving(memory, reading.cycle, out_of(memory))  # it faces the back of the bay
         return
-    steer(command, error, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
-    if obstacle_ahead(reading, table) <= table.exit_value:
+    inside = walled(reading, memory, table)
+    blocked = max(reading.proximity[0], reading.proximity[FRONT_LEFT]) > table.exit_value
+    if not blocked:
         memory.travelled += memory.odometer.forward
-    elif waited > 2 * table.exit_patience:
-        memory.leaving_since = reading.cycle
-    if memory.travelled > table.exit_distance:
-        memory.leaving = 0
+    if not inside:
+        walk(reading, memory, command, table, epuck, memory.exit_heading, table.speed)
+        late = reading.cycle - memory.leaving_since > table.exit_patience
+        if late or memory.travelled > table.exit_distance:
+            memory.leaving = 0
+    elif not blocked:
+        steer(command, error, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)

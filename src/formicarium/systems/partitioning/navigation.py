@@ -92,6 +92,12 @@ def back_off(reading, memory, table):
 
 
 @compiled
+def is_area(place):
+    """Tell whether a place is outside the corridor."""
+    return place != Ground.LEFT_LEG and place != Ground.BOTTOM and place != Ground.RIGHT_LEG
+
+
+@compiled
 def corridor_heading(memory, to_nest):
     """Return where to go from here to get through the corridor: down, along the bottom, up.
 
@@ -116,8 +122,7 @@ def corridor_heading(memory, to_nest):
 def follow_corridor(reading, memory, command, table, epuck, to_nest):
     """Walk through the corridor, on the path where it is found, back to it where it was left."""
     heading = corridor_heading(memory, to_nest)
-    place = memory.ground
-    if place == Ground.LEFT_LEG or place == Ground.BOTTOM or place == Ground.RIGHT_LEG:
+    if not is_area(memory.ground):
         unseen = reading.cycle - memory.path_seen
         if unseen > table.path_patience:
             memory.path_side = 1 if any_number(memory) < 0.5 else -1
@@ -145,15 +150,18 @@ def look(reading, memory, command, table, epuck, heading):
 
 
 @compiled
-def look_about(reading, memory, command, table, epuck, heading, spread, speed):
-    """Look round a heading, walk a little in a direction within ``spread`` of it, and look again."""
+def look_about(reading, memory, command, table, epuck, heading, speed):
+    """Look round a heading, walk a little, more or less the other way, and look again.
+
+    Away from the booths looked for: more of them are in view from there, and their mouths stay clear.
+    """
     if reading.cycle < memory.roam_until:
         walk(reading, memory, command, table, epuck, memory.roam_heading, speed)
     elif memory.looks < 2:
         look(reading, memory, command, table, epuck, heading)
         if memory.looks == 2:
             memory.roam_until = reading.cycle + int(table.roam_cycles * (1.0 + any_number(memory)))
-            memory.roam_heading = wrapped(heading + spread * (2.0 * any_number(memory) - 1.0))
+            memory.roam_heading = wrapped(heading + BACK + table.roam_spread * (2.0 * any_number(memory) - 1.0))
     else:
         memory.looks = 0
         memory.roam_until = NEVER
@@ -161,8 +169,8 @@ def look_about(reading, memory, command, table, epuck, heading, spread, speed):
 
 
 @compiled
-def arrive(reading, memory, table):
-    """Come out of the corridor: walk on into the area before looking about."""
+def arrive(reading, memory, cycles):
+    """Come out of the corridor, or stray back into it: walk on into the area for so long before looking about."""
     memory.looks = 2
-    memory.roam_until = reading.cycle + table.arrival_cycles
+    memory.roam_until = reading.cycle + cycles
     memory.roam_heading = AWAY

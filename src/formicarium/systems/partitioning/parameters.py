@@ -166,16 +166,20 @@ class BehaviourTable(Table):
     # booths
     look_half_width: float = number(1.2, "rad", "a robot that looks for a booth turns so far to both sides [choice]", gt=0)
     roam_cycles: int = number(20, "cycles", "then it walks for so long, at most twice [choice]", ge=1)
+    roam_spread: float = number(1.6, "rad", "to both sides of the way back from the booths [choice]", ge=0, le=3.2)
     arrival_cycles: int = number(
         70, "cycles", "who comes out of the corridor walks on for so long before it looks about [choice]", ge=1
     )
+    return_cycles: int = number(30, "cycles", "and who strays back into it, for so long [choice]", ge=1)
     target_gate: float = number(0.08, "m", "a light so near to where the target should be is the target [choice]", gt=0)
     lost_cycles: int = number(10, "cycles", "a target unseen for so long is lost [choice]", ge=1)
     committed: float = number(0.20, "m", "from here on a docking robot heeds no obstacles [choice]", gt=0)
     inside: float = number(0.085, "m", "a red light nearer than this is that of the own booth [choice]", gt=0)
+    bay_least: float = number(0.15, "1", "proximity on both sides of a robot in a bay: at least this [choice]", ge=0)
+    bay_sum: float = number(0.90, "1", "and together this: walls 10 cm apart give 1.2 [choice]", ge=0)
     docking_patience: int = number(250, "cycles", "then it backs off and looks again [choice]", ge=1)
     exit_distance: float = number(0.16, "m", "a robot drives straight out of a booth for so long [choice]", gt=0)
-    exit_patience: int = number(100, "cycles", "and waits so long for who stands before it [choice]", ge=0)
+    exit_patience: int = number(100, "cycles", "from its turn on; then it is out, unless there are still walls on both sides [choice]", ge=0)
     exit_value: float = number(0.5, "1", "proximity ahead that makes it wait [choice]", ge=0, le=1)
 
 

@@ -2,11 +2,15 @@
 
 import math
 
+import numpy as np
+
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.control.odometry import carry, measure
 from formicarium.robots.epuck import PROXIMITY_COSINES, PROXIMITY_SINES
 from formicarium.systems.partitioning.memory import Ground
+
+ARCS = np.array([33.5, 36.5, 50.0, 60.0, 60.0, 50.0, 36.5, 33.5])  # degrees, of the sensors at PROXIMITY_ANGLES
 
 
 @compiled
@@ -58,12 +62,15 @@ def nearest_shade(value, chart):
 
 @compiled
 def find_lamp(reading, memory):
-    """Take the lamp to be where the light sensors' readings, as vectors, add up to."""
+    """Take the lamp to be where the light sensors' readings, as vectors, add up to.
+
+    Each counts by the arc it stands for, half the way to its neighbours: the sensors are denser ahead.
+    """
     x = 0.0
     y = 0.0
     for k in range(len(reading.light)):
-        x += reading.light[k] * PROXIMITY_COSINES[k]
-        y += reading.light[k] * PROXIMITY_SINES[k]
+        x += ARCS[k] * reading.light[k] * PROXIMITY_COSINES[k]
+        y += ARCS[k] * reading.light[k] * PROXIMITY_SINES[k]
     memory.lamp = math.atan2(y, x)
 
 
