@@ -45,28 +45,31 @@ def sight_target(reading, memory, table, colour):
 def dock(reading, memory, command, table, epuck, colour):
     """Drive into the booth whose light has this colour; return GOING, ACKNOWLEDGED or LOST.
 
-    Acknowledged is a robot that has made for the colour up to the booth and sees red right before it.
+    Acknowledged is a robot that has just seen the colour and now has red right before it. Blind it does not drive: the
+    booth may have gone dark.
     """
     if memory.since == reading.cycle or memory.target.known == 0:
         memory.target.known = 0
         memory.target_seen = reading.cycle
     sight_target(reading, memory, table, colour)
     far = distance_to(memory.target) if memory.target.known == 1 else 10.0
-    if red_ahead(reading, table) and far < 1.5 * table.inside:
+    unseen = reading.cycle - memory.target_seen
+    if red_ahead(reading, table) and memory.target.known == 1 and unseen <= table.blind_cycles:
         memory.target.known = 0
         stop(command)
         return ACKNOWLEDGED
-    patience = table.lost_cycles * (3 if far < 1.5 * table.inside else 1)
     late = reading.cycle - memory.since > table.docking_patience
     if late:
         back_off(reading, memory, table)
-    if late or reading.cycle - memory.target_seen > patience or memory.target.known == 0:
+    if late or unseen > table.lost_cycles or memory.target.known == 0:
         memory.target.known = 0
         if far < table.committed:
             begin_leaving(memory, reading.cycle, out_of(memory))
         return LOST
     direction = bearing_to(memory.target)
-    if far > table.committed:
+    if unseen > table.blind_cycles:
+        stop(command)
+    elif far > table.committed:
         walk(reading, memory, command, table, epuck, memory.heading + direction, table.speed)
     else:
         steer(command, direction, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
@@ -97,16 +100,10 @@ def walled(reading, memory, table):
 
 @compiled
 def strayed(reading, memory, table):
-    """Tell whether the robot, without meaning to, is in a bay, and get ready to leave it.
-
-    It has red right before it, or walls close by on both sides while it faces into or out of a bay.
-    """
-    facing = red_ahead(reading, table)
-    if not facing and not walled(reading, memory, table):
+    """Tell whether the robot is in a bay without meaning to, with red right before it; get ready to leave it."""
+    if not red_ahead(reading, table):
         return False
-    blocked = obstacle_ahead(reading, table) > 0.0
-    out = out_of(memory)
-    begin_leaving(memory, reading.cycle, out if facing or blocked else wrapped(out + math.pi))
+    begin_leaving(memory, reading.cycle, out_of(memory))
     return True
 
 

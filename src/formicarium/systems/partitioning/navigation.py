@@ -38,8 +38,21 @@ def obstacle_ahead(reading, table):
 
 
 @compiled
+def free_side(reading, memory, table):
+    """Return the side on which to go round what is ahead: the freer one, or one drawn at random."""
+    if table.keep_right == 1:
+        return -1.0
+    difference = 0.0
+    for k in range(len(reading.proximity)):
+        difference += reading.proximity[k] * PROXIMITY_SINES[k]
+    if math.fabs(difference) < table.side_value:
+        return -1.0 if any_number(memory) < 0.5 else 1.0
+    return -1.0 if difference > 0.0 else 1.0
+
+
+@compiled
 def walk(reading, memory, command, table, epuck, heading, speed):
-    """Walk towards a heading; obstacles repel, and what is ahead is gone round on a side drawn at random.
+    """Walk towards a heading; obstacles and the lights of booths close by repel, and what is ahead is gone round.
 
     direction = goal - repulsion sum p_k s_k + swerve p_ahead side across, with sensor directions s_k.
     """
@@ -49,7 +62,7 @@ def walk(reading, memory, command, table, epuck, heading, speed):
     ahead = obstacle_ahead(reading, table)
     if ahead > 0.0:
         if reading.cycle >= memory.swerve_until:
-            memory.swerve = -1.0 if table.keep_right == 1 or any_number(memory) < 0.5 else 1.0
+            memory.swerve = free_side(reading, memory, table)
             memory.swerve_until = reading.cycle + table.swerve_cycles
         across = table.swerve * ahead * memory.swerve
         x, y = x - across * y, y + across * x
@@ -58,6 +71,11 @@ def walk(reading, memory, command, table, epuck, heading, speed):
         if value > 0.0:
             x -= table.repulsion * value * PROXIMITY_COSINES[k]
             y -= table.repulsion * value * PROXIMITY_SINES[k]
+    for k in range(reading.blob_count):
+        blob = reading.blobs[k]
+        if blob.distance < table.mouth_distance:
+            x -= table.mouth_repulsion * math.cos(blob.bearing)
+            y -= table.mouth_repulsion * math.sin(blob.bearing)
     slow = speed * (1.0 - ahead)
     steer(command, math.atan2(y, x), slow, table.steering_gain, table.turn_rate, epuck.wheel_distance)
     if ahead > table.pressed_value:

@@ -148,10 +148,13 @@ class BehaviourTable(Table):
     compass_gain: float = number(0.02, "1", "share of the lamp's direction taken over in a cycle [choice]", ge=0, le=1)
 
     # obstacles
-    obstacle_value: float = number(0.10, "1", "proximity below this is noise [choice]", ge=0, lt=1)
+    obstacle_value: float = number(0.20, "1", "proximity up to this is let be: 3 cm off [tuned on t_NP, N = 30]", ge=0, lt=1)
     repulsion: float = number(2.0, "1", "weight of obstacles against the way wanted [tuned]", ge=0)
     swerve: float = number(1.5, "1", "weight of going round what is ahead, on a side drawn at random [tuned]", ge=0)
     swerve_cycles: int = number(30, "cycles", "for so long it keeps to that side [tuned]", ge=1)
+    side_value: float = number(0.3, "1", "one side is the freer one by at least this [choice]", ge=0)
+    mouth_distance: float = number(0.20, "m", "a light nearer than this that is no target repels [choice, U28]", ge=0)
+    mouth_repulsion: float = number(1.5, "1", "weight of such a light against the way wanted [choice]", ge=0)
     keep_right: bool = number(False, "1", "always go round on the right: a rule of the road the paper has not [U9]")
     pressed_value: float = number(0.30, "1", "proximity ahead that counts as being stuck [choice]", ge=0)
     pressed_cycles: int = number(80, "cycles", "stuck for so long, it backs off [TP-34]", ge=1)
@@ -173,6 +176,7 @@ class BehaviourTable(Table):
     return_cycles: int = number(30, "cycles", "and who strays back into it, for so long [choice]", ge=1)
     target_gate: float = number(0.08, "m", "a light so near to where the target should be is the target [choice]", gt=0)
     lost_cycles: int = number(10, "cycles", "a target unseen for so long is lost [choice]", ge=1)
+    blind_cycles: int = number(3, "cycles", "no robot docks that has not seen its target for longer [choice]", ge=0)
     committed: float = number(0.20, "m", "from here on a docking robot heeds no obstacles [choice]", gt=0)
     inside: float = number(0.085, "m", "a red light nearer than this is that of the own booth [choice]", gt=0)
     bay_least: float = number(0.15, "1", "proximity on both sides of a robot in a bay: at least this [choice]", ge=0)
