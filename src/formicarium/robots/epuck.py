@@ -50,7 +50,9 @@ class Epuck(Table):
 class EpuckSight(Table):
     """The forward camera, the ground sensors and the sensors of ambient light."""
 
-    half_field: float = number(math.radians(28.0), "rad", "half the camera's field of view [choice TP-64]", gt=0, le=1.5)
+    half_field: float = number(
+        math.radians(28.0), "rad", "half the camera's field of view [choice TP-64]", gt=0, le=1.5
+    )
     range: float = number(1.0, "m", "to a light in a booth [choice TP-64]", gt=0, le=3)
     distance_noise: float = number(0.05, "1", "standard deviation, relative [choice TP-64]", ge=0, le=0.5)
     bearing_noise: float = number(math.radians(2.0), "rad", "standard deviation [choice TP-64]", ge=0)

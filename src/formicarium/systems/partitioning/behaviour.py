@@ -5,7 +5,7 @@ time: it stays in a cache booth while its gripper is busy.
 """
 
 from formicarium.compiled import compiled
-from formicarium.control.moves import stop
+from formicarium.control.moves import drive, stop
 from formicarium.robots.records import Colour
 from formicarium.systems.partitioning.choices import (
     choose,
@@ -47,8 +47,11 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
     memory.deed = Deed.NONE
     asleep = memory.oriented == 0
     perceive(reading, memory, table, chart, epuck)
+    if memory.oriented == 0:
+        drive(command, 0.0, table.turn_rate, epuck.wheel_distance)  # on a border between two shades: feel about
+        return
     if asleep:
-        wake(reading, memory, strategy, chart)
+        wake(reading, memory, strategy)
     if memory.leaving > 0 or (is_walking(memory) and strayed(reading, memory, table)):
         leave(reading, memory, command, table, epuck)
     elif not escape(reading, memory, command, table, epuck):
@@ -57,7 +60,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.ENTER_SOURCE:
             enter_source(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.TO_CACHE_DROP:
-            to_cache(reading, memory, command, table, strategy, epuck, False)
+            to_cache(reading, memory, command, table, strategy, chart, epuck, False)
         elif memory.state == State.WAIT_DROP:
             wait(reading, memory, command, table, strategy, chart, epuck, False)
         elif memory.state == State.ENTER_DROP:
@@ -71,7 +74,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.ENTER_NEST:
             enter_nest(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.TO_CACHE_PICK:
-            to_cache(reading, memory, command, table, strategy, epuck, True)
+            to_cache(reading, memory, command, table, strategy, chart, epuck, True)
         elif memory.state == State.WAIT_PICK:
             wait(reading, memory, command, table, strategy, chart, epuck, True)
         elif memory.state == State.ENTER_PICK:
@@ -104,10 +107,10 @@ def on_source_side(memory):
 
 
 @compiled
-def wake(reading, memory, strategy, chart):
+def wake(reading, memory, strategy):
     """Begin: in the nest area as if an object had just been stored, in the source area without a timer (TP-32)."""
     if on_nest_side(memory):
-        memory.timer = reading.cycle
+        note_deed(memory, Deed.BEGAN, reading.cycle)
         choose(reading, memory, strategy)
         enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
     else:
@@ -252,7 +255,7 @@ def corridor_to_source(reading, memory, command, table, epuck):
 
 
 @compiled
-def to_cache(reading, memory, command, table, strategy, epuck, to_pick):
+def to_cache(reading, memory, command, table, strategy, chart, epuck, to_pick):
     """Go to the cache; who has looked about there and seen no booth in its colour begins to wait (TP-17)."""
     cycle = reading.cycle
     if nearest_blob(reading, Colour.GREEN if to_pick else Colour.BLUE) >= 0 and at_cache(memory, to_pick):
@@ -261,7 +264,7 @@ def to_cache(reading, memory, command, table, strategy, epuck, to_pick):
         look(reading, memory, command, table, epuck, BACK if to_pick else FORWARD)
         if memory.looks >= 2:
             enter(memory, State.WAIT_PICK if to_pick else State.WAIT_DROP, cycle)
-            start_wait(reading, memory)
+            start_wait(reading, memory, strategy, chart)
     else:
         approach_cache(reading, memory, command, table, epuck, to_pick)
 

@@ -55,11 +55,18 @@ def close_timer(reading, memory, strategy, chart, at_nest):
 
 
 @compiled
-def start_wait(reading, memory):
-    """Begin to wait at the cache: the clock w of equation 3 starts."""
+def draw_cycles(strategy, chart):
+    """Return the cycles between two draws of P_g."""
+    return max(1, int(strategy.giveup_draw_period / chart.cycle_time + 0.5))
+
+
+@compiled
+def start_wait(reading, memory, strategy, chart):
+    """Begin to wait at the cache: the clock w of equation 3 starts; the first draw is a period away (U3)."""
     memory.waiting = 1
     memory.wait_began = reading.cycle
     memory.draws_made = 0
+    memory.draw_due = reading.cycle + draw_cycles(strategy, chart)
     memory.patience = advanced(memory.patience)
     memory.limit = uniform(memory.patience)
 
@@ -77,10 +84,11 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     if strategy.threshold == 1:
         leaves = probability >= memory.limit
     else:
-        if waited < (memory.draws_made + 1) * strategy.giveup_draw_period - 0.5 * chart.cycle_time:
+        if reading.cycle < memory.draw_due:
             return False
         # Draws that fell due while the robot was making for a booth are not made up for.
-        memory.draws_made = max(memory.draws_made + 1, int(waited / strategy.giveup_draw_period + 0.01))
+        memory.draw_due = reading.cycle + draw_cycles(strategy, chart)
+        memory.draws_made += 1
         memory.patience = advanced(memory.patience)
         leaves = uniform(memory.patience) < probability
     if not leaves:

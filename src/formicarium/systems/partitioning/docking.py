@@ -7,7 +7,7 @@ from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to, place
 from formicarium.robots.records import Colour
-from formicarium.systems.partitioning.navigation import BACK, FORWARD, back_off, is_area, obstacle_ahead, walk
+from formicarium.systems.partitioning.navigation import BACK, FORWARD, back_off, is_area, walk
 from formicarium.systems.partitioning.perception import nearest_blob
 
 FRONT_LEFT = 7  # sensor that looks ahead, like number 0: the only two that do not see the walls of a bay
@@ -70,7 +70,7 @@ def dock(reading, memory, command, table, epuck, colour):
     if unseen > table.blind_cycles:
         stop(command)
     elif far > table.committed:
-        walk(reading, memory, command, table, epuck, memory.heading + direction, table.speed)
+        walk(reading, memory, command, table, epuck, memory.compass + direction, table.speed)
     else:
         steer(command, direction, table.speed, table.steering_gain, table.turn_rate, epuck.wheel_distance)
     return GOING
@@ -79,7 +79,7 @@ def dock(reading, memory, command, table, epuck, colour):
 @compiled
 def out_of(memory):
     """Return the heading out of a booth that the robot faces: all booths open towards source or nest."""
-    return BACK if math.cos(memory.heading) > 0.0 else FORWARD
+    return BACK if math.cos(memory.compass) > 0.0 else FORWARD
 
 
 @compiled
@@ -94,7 +94,7 @@ def walled(reading, memory, table):
     """Tell whether there are walls close by on both sides of a robot that faces into or out of a bay."""
     right = reading.proximity[RIGHT]
     left = reading.proximity[LEFT]
-    level = math.fabs(math.cos(memory.heading)) > 0.7 and is_area(memory.ground)
+    level = math.fabs(math.cos(memory.compass)) > 0.7 and is_area(memory.ground)
     return level and min(left, right) > table.bay_least and left + right > table.bay_sum
 
 
@@ -120,7 +120,7 @@ def begin_leaving(memory, cycle, heading):
 @compiled
 def leave(reading, memory, command, table, epuck):
     """Turn round in the bay and drive out; inside, who stands before the mouth is waited for."""
-    error = wrapped(memory.exit_heading - memory.heading)
+    error = wrapped(memory.exit_heading - memory.compass)
     if memory.leaving == 1:
         if math.fabs(error) > 0.1:
             drive(command, 0.0, math.copysign(table.turn_rate, error), epuck.wheel_distance)

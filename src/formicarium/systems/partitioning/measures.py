@@ -98,8 +98,6 @@ def note_robot(state, i):
         if robot.dies_at == clock.cycle:
             write_event(clock, events, EventKind.DIED, who, 0, 0, 0)
         return
-    if clock.cycle == 0 and memory.label != Label.NONE:
-        write_event(clock, events, EventKind.BEGAN, who, memory.label, 0, 0)
     seen = state.seen[i]
     role = role_of(memory.state)
     if role != seen.role:
@@ -110,7 +108,9 @@ def note_robot(state, i):
         write_event(clock, events, EventKind.ESCAPED, who, 0, memory.escapes, 0)
     if memory.deed == Deed.NONE:
         return
-    if memory.deed == Deed.HARVESTED or memory.deed == Deed.STORED:
+    if memory.deed == Deed.BEGAN:
+        write_event(clock, events, EventKind.BEGAN, who, memory.label, 0, 0)
+    elif memory.deed == Deed.HARVESTED or memory.deed == Deed.STORED:
         kind = EventKind.HARVESTED if memory.deed == Deed.HARVESTED else EventKind.STORED
         measured = int(memory.measured / cycle_time + 0.5)
         write_event(clock, events, kind, who, memory.label, measured, memory.updated)

@@ -68,6 +68,7 @@ class Deed(IntEnum):
     DROPPED = 3
     PICKED = 4
     GAVE_UP = 5
+    BEGAN = 6  # decided at the start, in the nest area
 
 
 MEMORY = np.dtype(
@@ -87,6 +88,7 @@ MEMORY = np.dtype(
         ("waiting", "i8"),  # 1 while it waits at the cache
         ("wait_began", "i8"),  # cycle
         ("draws_made", "i8"),  # of P_g in this wait
+        ("draw_due", "i8"),  # cycle of the next one
         ("limit", "f8"),  # the wait's threshold of P_g, if waits have one
         # the deed of this cycle
         ("deed", "i8"),
@@ -96,10 +98,10 @@ MEMORY = np.dtype(
         ("probability", "f8"),  # P_p of the decision, P_g of giving up
         # way
         ("odometer", ODOMETER),
-        ("heading", "f8"),  # rad, by its own reckoning; 0 points from the source to the nest
+        ("compass", "f8"),  # rad, heading by its own reckoning; 0 points from the source to the nest
         ("oriented", "i8"),  # 1 once it has a heading
         ("lamp", "f8"),  # rad, bearing of the lamp
-        ("ground", "i8"),  # Ground
+        ("ground", "i8"),  # Ground, -1 until known
         ("path_side", "i8"),  # 1 the path was last seen to the left, -1 to the right
         ("path_seen", "i8"),  # cycle
         ("swerve", "f8"),  # 1 or -1, side on which it goes round what is ahead
@@ -133,7 +135,7 @@ def enter(memory, state, cycle):
     memory.roam_until = NEVER
 
 
-# What the robots are told of the arena before they are switched on; headings as in MEMORY.
+# What the robots are told of the arena before they are switched on; headings as on the compass.
 CHART = np.dtype(
     [
         ("shades", "f8", len(Ground)),  # of the floor

@@ -56,7 +56,7 @@ def walk(reading, memory, command, table, epuck, heading, speed):
 
     direction = goal - repulsion sum p_k s_k + swerve p_ahead side across, with sensor directions s_k.
     """
-    direction = wrapped(heading - memory.heading)
+    direction = wrapped(heading - memory.compass)
     x = math.cos(direction)
     y = math.sin(direction)
     ahead = obstacle_ahead(reading, table)
@@ -131,7 +131,7 @@ def corridor_heading(memory, to_nest):
         return DOWN if to_nest else AWAY
     if place == Ground.NEST_AREA or place == Ground.RIGHT_LEG:
         return AWAY if to_nest else DOWN
-    if math.cos(memory.heading + memory.lamp) * side < -BEHIND_LAMP:
+    if math.cos(memory.compass + memory.lamp) * side < -BEHIND_LAMP:
         return AWAY
     return FORWARD if to_nest else BACK
 
@@ -154,7 +154,7 @@ def look(reading, memory, command, table, epuck, heading):
     """Turn on the spot to both sides of a heading, and give way to who comes near."""
     if memory.look_side == 0.0:
         memory.look_side = 1.0
-    error = wrapped(heading + memory.look_side * table.look_half_width - memory.heading)
+    error = wrapped(heading + memory.look_side * table.look_half_width - memory.compass)
     if math.fabs(error) < 0.1:
         memory.look_side = -memory.look_side
         memory.looks += 1
@@ -162,7 +162,7 @@ def look(reading, memory, command, table, epuck, heading):
     for k in range(len(reading.proximity)):
         near = max(near, reading.proximity[k])
     if near > table.pressed_value:
-        walk(reading, memory, command, table, epuck, memory.heading, 0.5 * table.speed)
+        walk(reading, memory, command, table, epuck, memory.compass, 0.5 * table.speed)
     else:
         drive(command, 0.0, math.copysign(table.turn_rate, error), epuck.wheel_distance)
 

@@ -97,7 +97,10 @@ class CacheTable(Table):
     @model_validator(mode="after")
     def no_time_runs_backwards(self) -> "CacheTable":
         """Refuse a negative Pi_2."""
-        if min(self.interfacing_time, self.switched_time if self.switch_time >= 0 else math.inf) + self.taking_extra < 0:
+        if (
+            min(self.interfacing_time, self.switched_time if self.switch_time >= 0 else math.inf) + self.taking_extra
+            < 0
+        ):
             raise ValueError("taking_extra makes the time of picking up negative")
         return self
 
@@ -123,7 +126,9 @@ class StrategyTable(Table):
         "per_draw", "1", "threshold: one number is drawn for each wait, which ends when P_g exceeds it [choice TP-16]"
     )
     estimate_least: float = number(50.0, "s", "first estimates of both sub-tasks: uniform from here [paper]", gt=0)
-    estimate_most: float = number(100.0, "s", "to here [paper]; that of the whole task: from and to twice as much", gt=0)
+    estimate_most: float = number(
+        100.0, "s", "to here [paper]; that of the whole task: from and to twice as much", gt=0
+    )
     least_probability: float = number(1e-12, "1", "P_p is kept so far from 0 and 1 [choice TP-12, U22]", ge=0, le=0.1)
 
     @classmethod
@@ -148,7 +153,9 @@ class BehaviourTable(Table):
     compass_gain: float = number(0.02, "1", "share of the lamp's direction taken over in a cycle [choice]", ge=0, le=1)
 
     # obstacles
-    obstacle_value: float = number(0.20, "1", "proximity up to this is let be: 3 cm off [tuned on t_NP, N = 30]", ge=0, lt=1)
+    obstacle_value: float = number(
+        0.20, "1", "proximity up to this is let be: 3 cm off [tuned on t_NP, N = 30]", ge=0, lt=1
+    )
     repulsion: float = number(2.0, "1", "weight of obstacles against the way wanted [tuned]", ge=0)
     swerve: float = number(1.5, "1", "weight of going round what is ahead, on a side drawn at random [tuned]", ge=0)
     swerve_cycles: int = number(30, "cycles", "for so long it keeps to that side [tuned]", ge=1)
@@ -164,10 +171,14 @@ class BehaviourTable(Table):
     path_value: float = number(0.93, "1", "ground brighter than this is path", ge=0, le=1)
     path_nudge: float = number(0.35, "rad", "towards the path when it is under one side only [choice]", ge=0)
     path_return: float = number(0.70, "rad", "towards the path when it has been left [choice]", ge=0)
-    path_patience: int = number(80, "cycles", "without the path before it is looked for on the other side [choice]", ge=1)
+    path_patience: int = number(
+        80, "cycles", "without the path before it is looked for on the other side [choice]", ge=1
+    )
 
     # booths
-    look_half_width: float = number(1.2, "rad", "a robot that looks for a booth turns so far to both sides [choice]", gt=0)
+    look_half_width: float = number(
+        1.2, "rad", "a robot that looks for a booth turns so far to both sides [choice]", gt=0
+    )
     roam_cycles: int = number(20, "cycles", "then it walks for so long, at most twice [choice]", ge=1)
     roam_spread: float = number(1.6, "rad", "to both sides of the way back from the booths [choice]", ge=0, le=3.2)
     arrival_cycles: int = number(
@@ -183,7 +194,9 @@ class BehaviourTable(Table):
     bay_sum: float = number(0.90, "1", "and together this: walls 10 cm apart give 1.2 [choice]", ge=0)
     docking_patience: int = number(250, "cycles", "then it backs off and looks again [choice]", ge=1)
     exit_distance: float = number(0.16, "m", "a robot drives straight out of a booth for so long [choice]", gt=0)
-    exit_patience: int = number(100, "cycles", "from its turn on; then it is out, unless there are still walls on both sides [choice]", ge=0)
+    exit_patience: int = number(
+        100, "cycles", "from its turn on; then it is out, unless there are still walls on both sides [choice]", ge=0
+    )
     exit_value: float = number(0.5, "1", "proximity ahead that makes it wait [choice]", ge=0, le=1)
 
 

@@ -18,7 +18,7 @@ def perceive(reading, memory, table, chart, epuck):
     """Bring odometry, ground, path, lamp and heading up to date with this cycle's readings."""
     measure(memory.odometer, reading, epuck)
     carry(memory.target, memory.odometer)
-    memory.heading = wrapped(memory.heading + memory.odometer.turn)
+    memory.compass = wrapped(memory.compass + memory.odometer.turn)
     feel_ground(reading, memory, table, chart)
     find_lamp(reading, memory)
     keep_heading(memory, table, chart)
@@ -78,13 +78,13 @@ def find_lamp(reading, memory):
 def keep_heading(memory, table, chart):
     """Correct the reckoned heading by the lamp where its direction is known: in both areas."""
     place = memory.ground
-    if place == Ground.LEFT_LEG or place == Ground.BOTTOM or place == Ground.RIGHT_LEG:
+    if place < 0 or place == Ground.LEFT_LEG or place == Ground.BOTTOM or place == Ground.RIGHT_LEG:
         return
     by_lamp = chart.lamps[place] - memory.lamp
     if memory.oriented == 0:
-        memory.heading = wrapped(by_lamp)
+        memory.compass = wrapped(by_lamp)
         memory.oriented = 1
-    memory.heading = wrapped(memory.heading + table.compass_gain * wrapped(by_lamp - memory.heading))
+    memory.compass = wrapped(memory.compass + table.compass_gain * wrapped(by_lamp - memory.compass))
 
 
 @compiled

@@ -15,8 +15,8 @@ from formicarium.robots.forager import COMMAND, GRIP, LAMP, NICHE_LIGHT, READING
 from formicarium.robots.records import Colour
 from formicarium.streams import generator, stream, uniform
 from formicarium.systems.partitioning.arena import Arena, Box, make_arena
-from formicarium.systems.partitioning.memory import CHART, MEMORY, NEVER, Ground
 from formicarium.systems.partitioning.measures import SEEN
+from formicarium.systems.partitioning.memory import CHART, MEMORY, NEVER, Ground
 from formicarium.systems.partitioning.parameters import PartitioningParameters
 from formicarium.trial.events import CLOCK
 from formicarium.trial.record import EVENT
@@ -24,6 +24,7 @@ from formicarium.trial.setup import APART, PLACING_ATTEMPTS, WALL_MARGIN, NoRoom
 
 EVENTS_PER_LOOK = 100  # room in the log for each robot and each booth in one look of 100 cycles
 LIGHT_OFF_WALL = 0.004  # m, from the bay's back wall, which would hide it otherwise
+LEAST_REACH = 0.3  # m, of the neighbour lists, however short the camera's range
 SUBSTEPS = 10  # physics steps in a cycle, with contact dynamics [model]
 
 
@@ -77,7 +78,7 @@ def begin(
         arena.segments,
         cycle_time=p.swarm.cycle_time,
         substeps=SUBSTEPS,
-        reach=p.sight.range + 0.01,
+        reach=max(p.sight.range, LEAST_REACH) + 0.01,
     )
     clock = records(CLOCK, 1)
     clock[0].last_cycle = round(p.swarm.time_cap / p.swarm.cycle_time)
@@ -159,6 +160,7 @@ def make_memories(robots: np.recarray, p: PartitioningParameters, seed: int) -> 
         memory.store = low + span * uniform(stream(seed, "estimate of storing", key))
         memory.whole = 2.0 * (low + span * uniform(stream(seed, "estimate of the whole", key)))
         memory.look_side = 1.0
+        memory.ground = -1
         for name in ("timer", "deed_cycle", "path_seen", "swerve_until", "escape_until", "roam_until", "target_seen"):
             memory[name] = NEVER
     return memories
