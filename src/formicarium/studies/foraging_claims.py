@@ -53,6 +53,11 @@ def _mean(rows: Sequence[Row], name: str) -> float:
     return float(np.mean(values))
 
 
+def _some(rows: Sequence[Row]) -> None:
+    if not rows:
+        raise ValueError("no runs")
+
+
 def _cell(runs: Runs, method: str, time: float) -> list[Row]:
     return picked(runs.performance, method=method, interfacing_time_s=time)
 
@@ -86,6 +91,7 @@ def _ac_3(runs: Runs) -> tuple[str, bool | None]:
 
 def _ac_4(runs: Runs) -> tuple[str, bool | None]:
     worst = 0.0
+    _some(runs.performance)
     for row in runs.performance:
         if row["method"] == "never":
             worst = max(worst, abs(row["objects_per_robot"] * row["whole_mean_s"] / row["duration_s"] - 1))
@@ -150,6 +156,7 @@ def _ac_12(runs: Runs) -> tuple[str, bool | None]:
 
 
 def _ac_13(runs: Runs) -> tuple[str, bool | None]:
+    _some(runs.performance)
     sums = [row["share_used"] + row["share_gave_up"] + row["share_corridor"] for row in runs.performance]
     never = all(row["share_corridor"] == 1 for row in picked(runs.performance, method="never"))
     always = all(row["share_used"] == 1 for row in picked(runs.performance, method="always"))
@@ -187,7 +194,10 @@ def _windows(runs: Runs, before: float, after: float) -> np.ndarray:
     cell = picked(runs.adaptivity, interfacing_time_s=before, cache__switched_time=after)
     if not cell:
         raise ValueError("no runs with a change")
-    return np.median([[share[0] for share in share_by_hour(row)] for row in cell], axis=0)
+    found = np.median([[share[0] for share in share_by_hour(row)] for row in cell], axis=0)
+    if len(found) < 16:
+        raise ValueError("runs shorter than the paper's")
+    return found
 
 
 def _ac_17(runs: Runs) -> tuple[str, bool | None]:

@@ -69,7 +69,9 @@ def figure_10(rows: Sequence[Row]) -> Chart:
     panels = []
     for before, after in ((200.0, 0.0), (0.0, 200.0)):
         cell = consistent(picked(rows, interfacing_time_s=before, cache__switched_time=after))
-        shares = np.array([share_by_hour(row)[:HOURS] for row in cell]).reshape(len(cell), -1, 2)
+        if not cell:
+            continue
+        shares = np.array([share_by_hour(row)[:HOURS] for row in cell])
         traces = []
         for number, label in enumerate(("cache used", "corridor, or cache given up")):
             means = [mean_of(100.0 * shares[:, hour, number]) for hour in range(shares.shape[1])]

@@ -25,6 +25,7 @@ class Overhead:
         """Draw the arena, the devices and the legend."""
         self.scene = scene
         self.styles = role_styles(scene.roles)
+        self._number = "tasks\ndone so far" if "runner" in scene.roles else "what it\ncarries"
         self.figure = new_figure(WIDTH, HEIGHT)
         self.axes = self.figure.add_axes((0.0, 0.0, HEIGHT / WIDTH, 1.0))
         self.side = self.figure.add_axes((HEIGHT / WIDTH, 0.0, 1 - HEIGHT / WIDTH, 1.0))
@@ -168,7 +169,7 @@ class Overhead:
         self.side.text(
             0.05,
             below - 0.05,
-            "number: tasks\ndone so far\n\nbooth filled: lit\nbooth hollow: dark",
+            f"number: {self._number}\n\nbooth filled: lit\nbooth hollow: dark",
             size=9,
             color=PALE_INK,
             va="top",
