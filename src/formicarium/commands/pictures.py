@@ -9,6 +9,7 @@ from formicarium.commands.tables import trial_of
 from formicarium.systems.registry import System
 
 Progress = Callable[[int, int], None]
+COUNTED = {"partitioning": "objects stored"}  # what the curve of a timeline counts, if not sequences
 
 
 def draw_set(system: System, store: Store, seeds: Sequence[int], folder: Path) -> list[Path]:
@@ -49,7 +50,11 @@ def draw_run(
         lines = folder / f"timeline-seed-{seed}.png"
         pictures.append(draw_frame(trial.scene, trial.frames, end, title=f"{system.name}\nseed {seed}"))
         title = f"{system.name}, seed {seed}"
-        pictures.append(draw_timeline(system.timeline(trial), trial.scene.roles, lines, title))
+        pictures.append(
+            draw_timeline(
+                system.timeline(trial), trial.scene.roles, lines, title, COUNTED.get(system.name, "sequences done")
+            )
+        )
     if movie:
         path = folder / f"movie-seed-{seed}{suffix()}"
         if not path.exists() or path.stat().st_mtime < store.path("frames", seed).stat().st_mtime:

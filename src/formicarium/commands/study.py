@@ -10,12 +10,16 @@ from formicarium.commands.whole import Whole
 Switch = Annotated[bool, Parameter(negative="")]
 Several = Annotated[tuple[str, ...], Parameter(negative="")]
 
+SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
+
 
 def study(
-    name: Literal["sequencing"],
+    name: Literal["sequencing", "partitioning"],
     /,
     *,
-    figure: Literal["2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all"] = "all",
+    figure: Literal[
+        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "all"
+    ] = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
     setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),
@@ -27,11 +31,11 @@ def study(
 ) -> int:
     """Run a published study, or go on with it, and draw its figures beside the paper's numbers.
 
-    The runs are campaigns inside the folder, one for each variant's part of
-    Table 1; a figure runs only the cells that it shows, and what is done is
-    loaded. Beside them: the figures, report.md and report.html (what the paper
-    says, tested), cells.csv, table-s3.csv, and tables/ (a row a run). Exit code 0
-    if every run of the figure is there, 1 if not.
+    The runs are campaigns inside the folder; a figure of sequencing runs only the
+    cells that it shows, and what is done is loaded. Beside them: the figures, tables
+    of cells and report.md (what the paper says, tested); of sequencing also
+    report.html, table-s3.csv and tables/ (a row a run). Exit code 0 if every run of
+    the figure is there, 1 if not.
 
     Examples:
 
@@ -39,20 +43,22 @@ def study(
         formicarium study sequencing --out study
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
+        formicarium study partitioning --figure 7 --runs 3
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018).
+        The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
     figure
-        The paper's number of the figure; 5 is 5A and 5B, 7 is 7A and 7B.
+        The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
+        S19 of sequencing; 7 to 11 and giving-up of partitioning.
     out
         Folder of the campaigns, figures, tables and report.
     runs
-        Runs of each cell, instead of the paper's 30.
+        Runs of each cell, instead of the design's (30, or 50 and 20).
     setting
-        Run the cells of this setting alone (several times: of these); figures and
-        report still show all that is there.
+        Of sequencing: run the cells of this setting alone (several times: of these);
+        figures and report still show all that is there.
     workers
         Processes that share the runs; one a core if not given.
     collect_only
@@ -68,13 +74,32 @@ def study(
         docs/results/tables, instead of from campaigns; runs nothing.
     """
     from formicarium.commands.errors import UserError
-    from formicarium.commands.published.answers import draw_study, run_study
-    from formicarium.commands.published.store import Asked
 
     if check is not None and check < 1:
         raise UserError(f"--check {check}: must be at least 1")
+    if name == "partitioning":
+        return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
+    from formicarium.commands.published.answers import draw_study, run_study
+    from formicarium.commands.published.store import Asked
+
+    if figure not in SEQUENCING:
+        raise UserError(f"--figure {figure}: the study sequencing has {', '.join(SEQUENCING)}")
     tables = Path(from_tables) if from_tables is not None else None
     asked = Asked(figure, Path(out), runs, workers, sources, tuple(map(int, setting)), tables)
     runs_nothing = collect_only or sources or tables is not None
     code = 0 if runs_nothing else run_study(asked, check)
     return max(code, draw_study(asked))
+
+
+def _partitioning(
+    figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
+) -> int:
+    from formicarium.commands import foraging
+    from formicarium.commands.errors import UserError
+
+    if figure not in foraging.DESIGNS:
+        raise UserError(f"--figure {figure}: the study partitioning has {', '.join(foraging.DESIGNS)}")
+    if len(sources) > 1:
+        raise UserError("--sources: the study partitioning takes one")
+    code = 0 if collect_only or sources else foraging.run_study(figure, out, runs, workers)
+    return max(code, foraging.draw_study(figure, out, runs, sources[0] if sources else None))

@@ -45,3 +45,25 @@ class Epuck(Table):
     camera_distance_noise: float = number(0.013, "m", "standard deviation [model]", ge=0)
     camera_bearing_noise: float = number(math.radians(2.0), "rad", "standard deviation [choice TS-19]", ge=0)
     camera_miss: float = number(0.05, "1", "probability that a light is missed in a cycle [choice TS-19]", ge=0, le=1)
+
+
+class EpuckSight(Table):
+    """The forward camera, the ground sensors and the sensors of ambient light."""
+
+    half_field: float = number(
+        math.radians(28.0), "rad", "half the camera's field of view [choice TP-64]", gt=0, le=1.5
+    )
+    range: float = number(1.0, "m", "to a light in a booth [choice TP-64]", gt=0, le=3)
+    distance_noise: float = number(0.05, "1", "standard deviation, relative [choice TP-64]", ge=0, le=0.5)
+    bearing_noise: float = number(math.radians(2.0), "rad", "standard deviation [choice TP-64]", ge=0)
+    ground_ahead: float = number(0.03, "m", "ground sensors from the centre [model]", gt=0)
+    ground_apart: float = number(0.009, "m", "between two of them [model]", gt=0)
+    ground_noise: float = number(0.02, "1", "half-width of the uniform noise [choice TP-54]", ge=0, le=1)
+    light_noise: float = number(0.02, "1", "half-width of the uniform noise [choice]", ge=0, le=1)
+
+
+# Rows: the numbers in which a published setting differs from the table's own.
+PINI_2011 = {
+    "speed_limit": 0.035,  # m/s [Pini et al. 2011: speed set to 3.5 cm/s]
+    "wheel_noise": 0.02,  # [choice TP-65]
+}

@@ -18,6 +18,7 @@ BUILT_IN = {
     "mark-i4": "formicarium.systems.sequencing.study:MARK_I4",
     "mark-ii3": "formicarium.systems.sequencing.study:MARK_II3",
     "mark-ii4": "formicarium.systems.sequencing.study:MARK_II4",
+    "partitioning": "formicarium.systems.partitioning.study:PARTITIONING",
 }
 GROUP = "formicarium.systems"
 

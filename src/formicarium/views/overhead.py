@@ -15,6 +15,7 @@ from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, PAPER, clock, c
 
 WIDTH, HEIGHT = 8.0, 6.4  # inches
 MARGIN = 0.06  # metres around the arena
+FLOOR_SHADE = "floor "  # colour of a patch of floor in a Scene: this and its shade, 0 black .. 1 white
 
 
 class Overhead:
@@ -24,6 +25,7 @@ class Overhead:
         """Draw the arena, the devices and the legend."""
         self.scene = scene
         self.styles = role_styles(scene.roles)
+        self._number = "tasks\ndone so far" if "runner" in scene.roles else "what it\ncarries"
         self.figure = new_figure(WIDTH, HEIGHT)
         self.axes = self.figure.add_axes((0.0, 0.0, HEIGHT / WIDTH, 1.0))
         self.side = self.figure.add_axes((HEIGHT / WIDTH, 0.0, 1 - HEIGHT / WIDTH, 1.0))
@@ -89,6 +91,10 @@ class Overhead:
             aspect="equal",
         )
         for polygon in self.scene.polygons:
+            if polygon.colour.startswith(FLOOR_SHADE):
+                # Paled, so that robots and their letters stay readable on it.
+                shade = str(0.55 + 0.45 * float(polygon.colour.removeprefix(FLOOR_SHADE)))
+                self.axes.fill(*polygon.points.T, facecolor=shade, linewidth=0)
             if polygon.colour == "wall":
                 outer = area(polygon.points) > 0.5 * half * half  # the arena itself, not a box in it
                 self.axes.fill(
@@ -104,7 +110,8 @@ class Overhead:
         self.axes.text(start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK)
 
     def _make_moving(self) -> None:
-        devices = [polygon for polygon in self.scene.polygons if polygon.colour != "wall"]
+        still = ("wall", FLOOR_SHADE)
+        devices = [polygon for polygon in self.scene.polygons if not polygon.colour.startswith(still)]
         self._booth_colours = np.array([_rgba(colour(device.colour)) for device in devices]).reshape(-1, 4)
         in_metres = AffineDeltaTransform(self.axes.transData)  # type: ignore[arg-type]
         outlines = [hull(device.points) for device in devices]
@@ -162,7 +169,7 @@ class Overhead:
         self.side.text(
             0.05,
             below - 0.05,
-            "number: tasks\ndone so far\n\nbooth filled: lit\nbooth hollow: dark",
+            f"number: {self._number}\n\nbooth filled: lit\nbooth hollow: dark",
             size=9,
             color=PALE_INK,
             va="top",

@@ -1,0 +1,128 @@
+"""The published study of task partitioning: its campaigns joined to its tables and figures."""
+
+from importlib import resources
+from pathlib import Path
+
+from rich.console import Console
+
+from formicarium.campaigns import table
+from formicarium.campaigns.files import replacing
+from formicarium.campaigns.ledger import Ledger
+from formicarium.campaigns.tidy import tidy
+from formicarium.commands.campaign.answers import write_csv
+from formicarium.commands.campaign.sitting import Request, perform
+from formicarium.commands.campaign.study import Overrides, Study, open_study
+from formicarium.commands.errors import UserError
+from formicarium.studies.foraging import Row, cells_of, consistent
+from formicarium.studies.foraging_claims import Runs, claims
+from formicarium.studies.foraging_figures import (
+    figure_7,
+    figure_8,
+    figure_9,
+    figure_10,
+    figure_11,
+    figure_giving_up,
+)
+
+PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
+SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
+PATIENT = "partitioning-patient"
+PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
+OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
+ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT)
+DESIGNS = {
+    "7": (PERFORMANCE,),
+    "8": (PERFORMANCE,),
+    "9": (PERFORMANCE,),
+    "10": (ADAPTIVITY,),
+    "11": (SCALABILITY,),
+    "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
+    "all": ALL,
+}
+FIGURES = {
+    "7": (figure_7, PERFORMANCE),
+    "8": (figure_8, PERFORMANCE),
+    "9": (figure_9, PERFORMANCE),
+    "10": (figure_10, ADAPTIVITY),
+    "11": (figure_11, SCALABILITY),
+    "giving-up": (figure_giving_up, GIVING_UP),
+}
+
+
+def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
+    """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
+    studies = [_open(name, folder, Overrides(runs)) for name in DESIGNS[figure]]
+    return max(perform(study, Request(workers=workers)) for study in studies)
+
+
+def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
+    """Write figures, a table of cells a campaign and report.md; return 0 if no run is missing, else 1.
+
+    Raises:
+        UserError: if no run is there.
+        StoreError: if the folder cannot be read or written.
+    """
+    from formicarium.views.charts import draw_chart
+
+    studies = {name: _open(name, folder, Overrides(runs, sources=sources)) for name in DESIGNS[figure]}
+    rows = {name: _rows(study) for name, study in studies.items()}
+    there = sum(map(len, rows.values()))
+    if not there:
+        raise UserError(f"{folder}: no run of this study is there in {' or '.join(studies)}. Run it first.")
+    wanted = list(FIGURES) if figure == "all" else [figure]
+    written = []
+    for name in wanted:
+        draw, campaign = FIGURES[name]
+        if rows[campaign]:
+            written.append(draw_chart(draw(rows[campaign]), folder / f"figure-{name}.png"))
+    for name, found in rows.items():
+        if found:
+            path = folder / f"{name}.csv"
+            write_csv(table.from_rows(cells_of(found, _factors(studies[name]))), path)
+            written.append(path)
+    if figure == "all":
+        with replacing(folder / "report.md") as temporary:
+            temporary.write_text(report(rows), encoding="utf-8")
+        written.append(folder / "report.md")
+    total = sum(study.total for study in studies.values())
+    screen = Console()
+    screen.print(f"[bold]partitioning[/bold]: drawn from {there} of {total} runs", highlight=False)
+    for path in written:
+        screen.print(f"results   {path}", highlight=False, soft_wrap=True)
+    return 0 if there == total else 1
+
+
+def report(rows: dict[str, list[Row]]) -> str:
+    """Return in Markdown what the paper says, or what follows from it, and what our runs say."""
+    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY))))
+    counts = ", ".join(f"{name} {len(r)} ({len(r) - len(consistent(r))} left out)" for name, r in rows.items())
+    lines = ["# Task partitioning: the acceptance statements", "", f"Runs: {counts}.", ""]
+    lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
+    lines += [f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found]
+    for period in PERIODS:
+        chosen = [row for row in rows.get(PATIENT, []) if row["strategy.giveup_draw_period"] == period]
+        lines += ["", f"## With a draw of P_g every {period:g} s", ""]
+        lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
+        references = [row for row in rows.get(PERFORMANCE, []) if row["method"] != "adaptive"]
+        steady = [row for row in chosen if row["cache.switched_time"] == row["interfacing_time_s"]]
+        found = claims(Runs([*references, *steady], chosen))
+        lines += [
+            f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found if c.number in OF_THE_READING
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _open(name: str, folder: Path, overrides: Overrides) -> Study:
+    published = resources.files("formicarium.systems.partitioning.published")
+    with resources.as_file(published / f"{name}.toml") as path:
+        return open_study(str(path), str(folder / name), overrides)
+
+
+def _factors(study: Study) -> list[str]:
+    columns = {"strategy.method": "method", "cache.interfacing_time": "interfacing_time_s", "swarm.robots": "robots"}
+    names = dict.fromkeys(columns.get(name, name) for job in study.jobs for name in job.cell.factors)
+    return list(names)
+
+
+def _rows(study: Study) -> list[Row]:
+    return tidy(Ledger(study.folder).rows(), study.jobs).to_pylist()

@@ -1,0 +1,115 @@
+"""A robot's two decisions and its patience, on its own clock: what is timed, and when (TP-20 to TP-24)."""
+
+from formicarium.compiled import compiled
+from formicarium.streams import advanced, uniform
+from formicarium.systems.partitioning.memory import NEVER, Deed, Estimate, Label
+from formicarium.systems.partitioning.parameters import METHODS
+from formicarium.systems.partitioning.strategy import giving_up_probability, partition_probability, renewed
+
+NEVER_PARTITION = METHODS.index("never")
+ALWAYS_PARTITION = METHODS.index("always")
+
+
+@compiled
+def choose(reading, memory, strategy):
+    """Decide between cache and corridor with P_p, equation 1; start the timer."""
+    memory.choices = advanced(memory.choices)
+    if strategy.method == NEVER_PARTITION:
+        memory.probability = 0.0
+    elif strategy.method == ALWAYS_PARTITION:
+        memory.probability = 1.0
+    else:
+        memory.probability = partition_probability(
+            memory.whole, memory.harvest, memory.store, strategy.steepness, strategy.least_probability
+        )
+    memory.label = Label.CACHE if uniform(memory.choices) < memory.probability else Label.CORRIDOR
+    memory.timer = reading.cycle
+    memory.waiting = 0
+    memory.wait_began = NEVER
+
+
+@compiled
+def close_timer(reading, memory, strategy, chart, at_nest):
+    """Renew the estimate that the trip just ended is a measurement of (TP-21).
+
+    From one harvest to the next through the cache: phi_1; from one store to the next: phi_2. Through the corridor:
+    twice the crossing is t_NP (TP-22). After giving up: none.
+    """
+    memory.updated = Estimate.NONE
+    memory.measured = 0.0
+    if memory.timer == NEVER:
+        return
+    seconds = (reading.cycle - memory.timer) * chart.cycle_time
+    if memory.label == Label.CORRIDOR:
+        memory.updated = Estimate.WHOLE
+        memory.measured = 2.0 * seconds
+        memory.whole = renewed(memory.whole, memory.measured, strategy.alpha)
+    elif memory.label == Label.CACHE and at_nest:
+        memory.updated = Estimate.STORE
+        memory.measured = seconds
+        memory.store = renewed(memory.store, seconds, strategy.alpha)
+    elif memory.label == Label.CACHE:
+        memory.updated = Estimate.HARVEST
+        memory.measured = seconds
+        memory.harvest = renewed(memory.harvest, seconds, strategy.alpha)
+
+
+@compiled
+def draw_cycles(strategy, chart):
+    """Return the cycles between two draws of P_g."""
+    return max(1, int(strategy.giveup_draw_period / chart.cycle_time + 0.5))
+
+
+@compiled
+def start_wait(reading, memory, strategy, chart):
+    """Begin to wait at the cache: the clock w of equation 3 starts; the first draw is a period away (U3)."""
+    memory.waiting = 1
+    memory.wait_began = reading.cycle
+    memory.draws_made = 0
+    memory.draw_due = reading.cycle + draw_cycles(strategy, chart)
+    memory.patience = advanced(memory.patience)
+    memory.limit = uniform(memory.patience)
+
+
+@compiled
+def gives_up(reading, memory, strategy, chart, to_pick):
+    """Draw whether to give up, if a draw is due; on giving up, renew an estimate that the wait has exceeded (TP-23)."""
+    waited = (reading.cycle - memory.wait_began) * chart.cycle_time
+    if strategy.method == ALWAYS_PARTITION:
+        return False
+    own = memory.store if to_pick else memory.harvest
+    probability = giving_up_probability(
+        waited, own, memory.harvest, memory.store, strategy.giveup_steepness, strategy.giveup_offset
+    )
+    if strategy.threshold == 1:
+        leaves = probability >= memory.limit
+    else:
+        if reading.cycle < memory.draw_due:
+            return False
+        # Draws that fell due while the robot was making for a booth are not made up for.
+        memory.draw_due = reading.cycle + draw_cycles(strategy, chart)
+        memory.draws_made += 1
+        memory.patience = advanced(memory.patience)
+        leaves = uniform(memory.patience) < probability
+    if not leaves:
+        return False
+    memory.updated = Estimate.NONE
+    memory.measured = waited
+    if waited > own:
+        memory.updated = Estimate.STORE if to_pick else Estimate.HARVEST
+        if to_pick:
+            memory.store = renewed(own, waited, strategy.alpha)
+        else:
+            memory.harvest = renewed(own, waited, strategy.alpha)
+    memory.probability = probability
+    memory.label = Label.GAVE_UP
+    memory.waiting = 0
+    note_deed(memory, Deed.GAVE_UP, reading.cycle)
+    return True
+
+
+@compiled
+def note_deed(memory, deed, cycle):
+    """Leave word of what was just done, for whoever looks into the memory from outside."""
+    memory.deed = deed
+    memory.deed_cycle = cycle

@@ -1,0 +1,49 @@
+"""The main loop of the partitioning system: sense, decide, act, move, serve, note."""
+
+from formicarium.compiled import compiled
+from formicarium.devices.depot import serve_depots
+from formicarium.systems.partitioning.behaviour import decide
+from formicarium.systems.partitioning.measures import note
+from formicarium.trial.wheeled import act, move, sense
+
+
+@compiled
+def run(state, cycles):
+    """Advance a trial by so many control cycles."""
+    clock = state.clock[0]
+    for _ in range(cycles):
+        # Every robot reads its sensors, all at the same instant.
+        sense(state)
+
+        # Every robot decides from its own reading and memory alone.
+        for i in range(len(state.robots)):
+            if state.robots[i].alive == 1:
+                decide(
+                    state.readings[i],
+                    state.memories[i],
+                    state.commands[i],
+                    state.behaviour[0],
+                    state.strategy[0],
+                    state.chart[0],
+                    state.epuck[0],
+                )
+
+        # Wheels turn, bodies move and are in each other's way.
+        act(state)
+        move(state)
+
+        # Source, nest and cache notice who is inside.
+        serve_depots(
+            state.depots,
+            state.pairs,
+            state.lights,
+            state.grips,
+            state.world.bodies,
+            state.interfacing[0],
+            clock.cycle,
+            state.world.settings[0].cycle_time,
+        )
+
+        # The observers write down what has happened.
+        note(state)
+        clock.cycle += 1

@@ -1,0 +1,50 @@
+"""``formicarium study partitioning``: from its designs to its figures, made short."""
+
+import tomllib
+from importlib import resources
+
+import pytest
+
+from formicarium.commands import foraging
+from formicarium.commands.main import exit_code
+from formicarium.studies.foraging import TIMES
+from formicarium.systems.partitioning.parameters import INTERFACING_TIMES
+
+
+@pytest.fixture(autouse=True)
+def short(monkeypatch, tmp_path):
+    """Twenty simulated seconds a run."""
+    monkeypatch.chdir(tmp_path)
+    original = foraging.Overrides
+    monkeypatch.setattr(
+        foraging, "Overrides", lambda runs, sources=None: original(runs, ("swarm.time_cap=20",), sources)
+    )
+
+
+def design(name):
+    published = resources.files("formicarium.systems.partitioning.published")
+    return tomllib.loads(published.joinpath(f"{name}.toml").read_text())
+
+
+def test_the_designs_are_the_papers():
+    factors = design("partitioning-performance")["factors"]
+    assert tuple(factors["cache.interfacing_time"]) == INTERFACING_TIMES == TIMES
+    assert design("partitioning-scalability")["factors"]["swarm.robots"] == [4, 6, 8, 10, 14, 18, 22, 26, 30]
+    cells = 1
+    for values in design("partitioning-anova")["factors"].values():
+        cells *= len(values)
+    assert cells == 243
+
+
+def test_a_figure_is_run_and_drawn(tmp_path, capsys):
+    arguments = ["study", "partitioning", "--figure", "10", "--out", "here"]
+    assert exit_code([*arguments, "--collect-only"]) == 2
+    assert exit_code([*arguments, "--runs", "1", "--workers", "1"]) == 0
+    assert "drawn from 4 of 4 runs" in capsys.readouterr().out
+    assert (tmp_path / "here" / "figure-10.png").exists()
+    assert len((tmp_path / "here" / "partitioning-adaptivity.csv").read_text().splitlines()) == 5
+
+
+def test_a_figure_of_the_other_study_is_refused(capsys):
+    assert exit_code(["study", "partitioning", "--figure", "S18"]) == 2
+    assert "the study partitioning has 7, 8" in capsys.readouterr().err
