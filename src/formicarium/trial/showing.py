@@ -1,4 +1,4 @@
-"""Frames, packets and tables of records, from the parts of a state that every system has."""
+"""Packets and tables of records, from the parts of a state that every system has."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -8,42 +8,11 @@ import numpy as np
 
 from formicarium.robots.epuck import PROXIMITY_ANGLES
 from formicarium.robots.records import SILENCE, Colour
-from formicarium.trial.record import Frames
 from formicarium.trial.watching import Section
 
 Words = Mapping[str, Callable[[Any], str]]  # field -> how its value is written
 
 WRONG_CONTENT = 10.0  # cost of a sender that says something else than what was heard
-
-
-def part_of(state: Any, name: str) -> np.ndarray:
-    """Return a part of a state; "bodies" are those of its world."""
-    return state.world.bodies if name == "bodies" else getattr(state, name)
-
-
-def reel_of(state: Any, parts: Iterable[str]) -> dict[str, Any]:
-    """Return a reel of one moment."""
-    reel: dict[str, Any] = {name: np.asarray(part_of(state, name))[None] for name in parts}
-    return {"cycle": np.array([state.clock["cycle"][0]]), **reel}
-
-
-def poses(reel: Mapping[str, Any], role: np.ndarray, carried: np.ndarray, lit: np.ndarray) -> Frames:
-    """Return the frames of a reel with "bodies", "robots" and "commands".
-
-    Args:
-        reel: arrays with a leading axis of F moments.
-        role: (F, N), in the order of storage.
-        carried: (F, N), in the order of storage.
-        lit: (F, B).
-    """
-    bodies, robots = reel["bodies"], reel["robots"]
-    order = np.argsort(robots["identity"][0])
-    x, y, heading = (bodies[name][:, order].astype("f4") for name in ("x", "y", "heading"))
-    small = [values[:, order].astype("i1") for values in (role, carried, reel["commands"]["colour"])]
-    identity = robots["identity"][0][order].astype("i8")
-    return Frames(
-        np.asarray(reel["cycle"], "i8"), x, y, heading, small[0], small[1], lit.astype("i1"), identity, small[2]
-    )
 
 
 def packets_of(state: Any) -> np.ndarray:

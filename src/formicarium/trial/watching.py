@@ -3,7 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from formicarium.trial.record import Frames, Scene
+from formicarium.trial.film import Film
+from formicarium.trial.record import Scene
 
 
 class Section(NamedTuple):
@@ -37,15 +38,12 @@ class Impossible(ValueError):
 
 
 class Watching(NamedTuple):
-    """How a system is shown and touched. Beside its ``begin`` and ``advance`` a viewer needs nothing else of it.
+    """How a system is shown and touched. Beside its ``begin`` and ``advance`` a viewer needs nothing else of it."""
 
-    A reel is a state of which only ``parts`` are filled in, each with a leading axis of moments.
-    """
-
-    parts: tuple[str, ...]  # of the state, that frames are made of; "bodies" are those of its world
     scene: Callable[[Any, Any], Scene]  # (parameters, state) -> what does not move
-    frames: Callable[[Mapping[str, Any]], Frames]  # reel -> frames
-    packets: Callable[[Any], Any]  # state -> (P, 2) columns of receiver and sender of what was heard
+    shoot: Callable[[Any, Film], None]  # (state, film): compiled; takes one moment
+    roll: Callable[[Any, int, int, Film], None]  # (state, cycles, every, film): advance, shoot every so many cycles
     inspect: Callable[[Any, int], Inspection]  # (state, identity) -> what is in that robot
+    tell: Callable[[Any], str]  # EVENT -> one sentence
     intervene: Callable[[Any, Intervention], None]  # changes the state, or raises Impossible and leaves it
     outcome: Callable[[Any, Any, Any], Mapping[str, Any]]  # (parameters, state, events) -> row, as ``run`` gives it

@@ -14,9 +14,8 @@ from formicarium.systems.sequencing.measures import EventKind, outcome
 from formicarium.systems.sequencing.memory import Role
 from formicarium.systems.sequencing.parameters import SequencingParameters, mark_i3_parameters
 from formicarium.systems.sequencing.setup import SequencingState, begin
-from formicarium.systems.sequencing.watching import PARTS, frames, inspect, intervene
+from formicarium.systems.sequencing.watching import inspect, intervene, roll, shoot, tell
 from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
-from formicarium.trial.showing import packets_of
 from formicarium.trial.simulate import Album, simulate
 from formicarium.trial.watching import Watching
 
@@ -129,5 +128,5 @@ MARK_I3 = System(
     begin=begin,
     advance=run,
     roles=frame_roles,
-    watching=Watching(PARTS, scene_of, frames, packets_of, inspect, intervene, outcome_row),
+    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
 )

@@ -1,14 +1,16 @@
 """How the sequencing systems are shown and touched: frames, what is in a robot, what a person may do."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from formicarium.compiled import compiled
 from formicarium.robots.records import SILENCE
+from formicarium.systems.sequencing.loop import run
+from formicarium.systems.sequencing.measures import EventKind
 from formicarium.systems.sequencing.memory import NEVER, Role, State
 from formicarium.systems.sequencing.messages import MESSAGE, decode
-from formicarium.trial.record import Frames
+from formicarium.trial.film import shoot_robots
 from formicarium.trial.showing import (
     byte,
     colour,
@@ -16,7 +18,6 @@ from formicarium.trial.showing import (
     fields,
     metres,
     plain,
-    poses,
     reading_sections,
     said,
     side_by_side,
@@ -24,42 +25,58 @@ from formicarium.trial.showing import (
 from formicarium.trial.touching import touch_robot
 from formicarium.trial.watching import Impossible, Inspection, Intervention, Section
 
-PARTS = ("bodies", "robots", "memories", "commands", "booths")
-FRAME_ROLES = np.array([0, 1, 3, 2])  # Role -> number in frames
-DEAD = 4
-FARTHEST = 0.6  # m between neighbours of a chain; who is farther is not shown as joined
+DEAD = 4  # as frames number the dead
+ROOM = 100  # places of a branch
 
 
-def frames(reel: Mapping[str, Any]) -> Frames:
-    """Return the frames of a reel."""
-    alive = reel["robots"]["alive"] == 1
-    role = np.where(alive, FRAME_ROLES[reel["memories"]["role"]], DEAD)
-    booths = reel["booths"]
-    lit = (booths["occupied"] == 0) & (booths["blocked"] == 0)
-    shown = poses(reel, role, reel["memories"]["count"], lit)
-    order = np.argsort(reel["robots"]["identity"][0])
-    return shown._replace(joined=joined(reel["memories"][:, order], shown))
+@compiled
+def shoot(state, film):
+    """Take one moment: bodies, roles, tasks done, who stands where in the chain, which booths are lit."""
+    moment = film.taken[0]
+    shoot_robots(state, film)
+    for i in range(len(state.robots)):
+        memory = state.memories[i]
+        shot = film.shots[moment, i]
+        shot.carried = memory.count
+        if state.robots[i].alive == 0:
+            shot.role = DEAD
+        elif memory.role == Role.RUNNER:
+            shot.role = 0
+        elif memory.role == Role.GUARDIAN:
+            shot.role = 1
+            shot.place = memory.branch * ROOM
+            if memory.established == 1 and memory.branch > 1:
+                shot.after = last_place(state, memory.branch - 1)
+        else:
+            shot.role = 3 if memory.role == Role.TAIL else 2
+            shot.place = memory.branch * ROOM + memory.link_number
+            shot.after = shot.place - 1
+    for b in range(len(state.booths)):
+        booth = state.booths[b]
+        film.lit[moment, b] = 1 if booth.occupied == 0 and booth.blocked == 0 else 0
 
 
-def joined(memories: np.ndarray, shown: Frames) -> np.ndarray:
-    """Return for every chain member the column of the one before it in the chain, -1 for none.
+@compiled
+def last_place(state, branch):
+    """Return the place of a branch's last member; its guardian is number 0."""
+    last = branch * ROOM
+    for i in range(len(state.robots)):
+        memory = state.memories[i]
+        if state.robots[i].alive == 1 and memory.branch == branch:
+            if memory.role == Role.LINK or memory.role == Role.TAIL:
+                last = max(last, branch * ROOM + memory.link_number)
+    return last
 
-    Members of a branch are known by branch and link number; a guardian heads its own branch as number 0, and is
-    joined to the last of the branch before when that is established.
-    """
-    role, branch, number = memories["role"], memories["branch"], memories["link_number"]
-    member = (role != Role.RUNNER) & (shown.role != DEAD)
-    guardian = member & (role == Role.GUARDIAN)
-    place = branch * 100 + np.where(guardian, 0, number)
-    wanted = np.where(guardian, -1, place - 1)
-    last = np.where(member & ~guardian, place, -1)[:, None, :]
-    docked = guardian & (memories["established"] == 1) & (branch > 1)
-    last = np.where(last // 100 == branch[:, :, None] - 1, last, -1).max(axis=2)
-    wanted = np.where(docked, np.where(last < 0, (branch - 1) * 100, last), wanted)
-    gap = np.hypot(shown.x[:, :, None] - shown.x[:, None, :], shown.y[:, :, None] - shown.y[:, None, :])
-    same = (wanted[:, :, None] == place[:, None, :]) & member[:, :, None] & member[:, None, :]
-    gap = np.where(same & (gap < FARTHEST) & (gap > 0.0), gap, np.inf)
-    return np.where(np.isfinite(gap.min(axis=2)), gap.argmin(axis=2), -1).astype("i2")
+
+@compiled
+def roll(state, cycles, every, film):
+    """Advance by so many cycles and take a moment every so many, until the film is full or the trial finished."""
+    clock = state.clock[0]
+    end = clock.cycle + cycles
+    while clock.cycle < end and clock.finished == 0 and film.taken[0] < len(film.cycle):
+        run(state, min(end - clock.cycle, every - clock.cycle % every))
+        if clock.cycle % every == 0:
+            shoot(state, film)
 
 
 def inspect(state: Any, identity: int) -> Inspection:
@@ -155,3 +172,37 @@ def intervene(state: Any, intervention: Intervention) -> None:
     if booth.blocked == 1:
         booth.mute = 1
     return None
+
+
+def tell(event: Any) -> str:
+    """Say in a sentence what happened."""
+    kind, robot, subject, value, detail = (int(event[name]) for name in ("kind", "robot", "subject", "value", "detail"))
+    who = f"robot {robot}"
+    match kind:
+        case EventKind.ROLE:
+            what = f"of {colour(subject)}" if value == Role.GUARDIAN else f"in branch {subject}" if subject else ""
+            return f"{who} becomes {Role(value).name.lower()} {what}".strip()
+        case EventKind.VISIT:
+            return f"{who} {'enters' if value else 'leaves'} the {colour(subject)} booth"
+        case EventKind.EXECUTED:
+            return f"{who} does {colour(subject)} as task {detail}: {'success' if value else 'failure'}"
+        case EventKind.SEQUENCE:
+            return f"{who} completes sequence {value}"
+        case EventKind.CONDITION:
+            return f"guardian {robot} of {colour(subject)}: place {value}{', confident' if detail else ''}"
+        case EventKind.BRANCH:
+            return f"branch {subject} reaches guardian {robot} with {value} links"
+        case EventKind.CHAIN:
+            return f"the chain is complete: {value} members"
+        case EventKind.DISPLACED:
+            return f"{who}, {Role(value).name.lower()}, is pushed off its place"
+        case EventKind.DIED:
+            return f"{who}, {Role(value).name.lower()}, dies"
+        case EventKind.STATE:
+            return f"{who}: {State(detail).name.lower()} to {State(value).name.lower()}"
+        case EventKind.MESSAGE:
+            return f"{who} sends {subject:08x}"
+        case EventKind.UNFOUNDED:
+            return f"guardian {robot} of {colour(subject)} learns from {value}, which did not do it last"
+        case _:
+            return f"{who}: {EventKind(kind).name.lower().replace('_', ' ')} at {colour(subject)}"

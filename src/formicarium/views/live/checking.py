@@ -1,5 +1,6 @@
 """Holding a trial that is simulated again against the digests in its recording."""
 
+from bisect import bisect_right
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +13,7 @@ class Checks:
     def __init__(self, wanted: Mapping[int, bytes]):
         """Begin with the digests by cycle."""
         self._wanted = dict(wanted)
+        self._cycles = sorted(wanted)
         self.agreed = 0  # cycle up to which all digests agree
         self.counted = 0  # digests that agreed
         self.differs: int | None = None  # cycle of the first digest that does not
@@ -25,6 +27,11 @@ class Checks:
             self.agreed, self.counted = cycle, self.counted + 1
         else:
             self.differs = cycle
+
+    def next(self, cycle: int) -> int | None:
+        """Return the first cycle after ``cycle`` that has a digest."""
+        place = bisect_right(self._cycles, cycle)
+        return self._cycles[place] if place < len(self._cycles) else None
 
     def leave(self, cycle: int) -> None:
         """Note that the trial takes another course from this cycle on."""

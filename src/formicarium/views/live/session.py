@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from formicarium.systems.registry import System
+from formicarium.trial.film import frames_of, make_film
 from formicarium.trial.record import EVENT, Frames, Scene
-from formicarium.trial.showing import reel_of
+from formicarium.trial.showing import packets_of
 from formicarium.trial.simulate import LOOK, drain
 from formicarium.trial.watching import Inspection, Intervention, Watching
 from formicarium.views.live.checking import Checks
@@ -66,6 +67,7 @@ class Session:
         self.frontier = 0  # the farthest cycle that has been simulated
         self.turns = 0  # how often the trial has taken another turn, by an intervention in its past
         self.recorder: Recorder | None = None
+        self._still = make_film(1, len(self.identity), self.scene)
         self._logs: list[np.ndarray] = []
         self._joined: np.ndarray = np.zeros(0, EVENT)
         self._looked = 0  # events of all cycles before this one are in the log
@@ -81,7 +83,7 @@ class Session:
     @property
     def finished(self) -> bool:
         """Whether there is no next cycle."""
-        return bool(self._finished[0]) or self._cycle[0] >= self.last_cycle
+        return bool(self._finished[0]) or self.cycle >= self.last_cycle
 
     @property
     def ended(self) -> bool:
@@ -99,13 +101,17 @@ class Session:
     def record(self, recorder: Recorder) -> None:
         """Record the trial from its beginning."""
         self.recorder = recorder
-        recorder.take(self.cycle)
+        self.watching.shoot(self.state, recorder.film)
 
     def advance(self, cycles: int) -> None:
         """Run so many cycles, or until the trial is finished."""
         end = min(self.cycle + cycles, self.last_cycle)
         while self._cycle[0] < end and not self._finished[0]:
-            self._run(self.state, self._stop(end) - int(self._cycle[0]))
+            now = int(self._cycle[0])
+            if self.recorder and now >= self.frontier:
+                self.watching.roll(self.state, self._stop(end) - now, self.recorder.every, self.recorder.film)
+            else:
+                self._run(self.state, self._stop(end) - now)
             self._arrive()
         self._look()
 
@@ -113,10 +119,10 @@ class Session:
         """Return the next cycle at which something is to be done, ``end`` at the latest."""
         now = int(self._cycle[0])
         end = min(end, now + LOOK - now % LOOK)
-        if self.recorder and now >= self.frontier:
-            end = min(end, now + self.recorder.every - now % self.recorder.every)
-        elif now < self.frontier:
+        if now < self.frontier:
             end = min(end, self.frontier)
+        if self.checks and (check := self.checks.next(now)) is not None:
+            end = min(end, check)
         if self.done < len(self.interventions):
             end = min(end, max(self.interventions[self.done].cycle, now + 1))
         return end
@@ -129,8 +135,8 @@ class Session:
             self._look()
         if new:
             self.frontier = cycle
-            if self.recorder and (cycle % self.recorder.every == 0 or self.finished):
-                self.recorder.take(cycle)
+            if self.recorder and self.recorder.full:
+                self.recorder.flush(cycle)
             if self.finished and not self._over:
                 self._end()
         if self.checks:
@@ -164,7 +170,8 @@ class Session:
         """Close the recording of a trial that is left before its end."""
         if self.recorder:
             self._look()
-            self.recorder.close(self.frontier, None)
+            touched = any(deed.cycle == self.frontier for deed in self.interventions)
+            self.recorder.close(self.frontier, None, self.cycle == self.frontier and not touched)
             self.recorder = None
 
     def outcome(self) -> Mapping[str, Any]:
@@ -187,11 +194,13 @@ class Session:
 
     def frame(self) -> Frames:
         """Return one frame: now."""
-        return self.watching.frames(reel_of(self.state, self.watching.parts))
+        self._still.taken[0] = 0
+        self.watching.shoot(self.state, self._still)
+        return frames_of(self._still, np.asarray(self.state.robots["identity"]))
 
     def packets(self) -> np.ndarray:
         """Return who heard whom just now: columns of receiver and sender."""
-        return self.watching.packets(self.state)
+        return packets_of(self.state)
 
     def inspect(self, identity: int) -> Inspection | None:
         """Return what is in a robot."""

@@ -21,7 +21,7 @@ from formicarium.views.recording.blocks import (
     read_blocks,
 )
 from formicarium.views.recording.columns import unpacked
-from formicarium.views.recording.recorder import CHECK
+from formicarium.views.recording.recorder import CHECK, UNCHECKED
 from formicarium.views.scenes import scene_from
 
 
@@ -60,7 +60,8 @@ def read_recording(path: Path) -> Recording:
     for block in blocks:
         if block.kind == FRAMES:
             cycle, check = CHECK.unpack_from(block.content)
-            checks[cycle] = check
+            if cycle != UNCHECKED:
+                checks[cycle] = check
             strips.append(unpacked(block.content[CHECK.size :], identity))
         elif block.kind == EVENTS:
             events.append(np.frombuffer(zlib.decompress(block.content), EVENT))
