@@ -17,7 +17,9 @@ from formicarium.campaigns.errors import CrewError, DesignError, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
+from formicarium.commands.diff import diff
 from formicarium.commands.errors import UserError
+from formicarium.commands.replay import replay
 from formicarium.commands.run import run
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
@@ -46,6 +48,8 @@ app = App(
 )
 app.command(run)
 app.command(watch)
+app.command(replay)
+app.command(diff)
 app.command(systems)
 app.command(describe)
 app.command(campaign)

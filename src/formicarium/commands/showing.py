@@ -11,10 +11,8 @@ from formicarium.campaigns.configuration import Configuration
 from formicarium.commands.errors import UserError
 from formicarium.commands.extras import require
 from formicarium.commands.known import find_system, parameters_of
-from formicarium.commands.work import configuration_of
+from formicarium.commands.work import RECORDED_EVERY, configuration_of
 from formicarium.systems.registry import System
-
-FRAMES_EVERY = 0.5  # seconds between two recorded frames
 
 
 class Page(NamedTuple):
@@ -73,7 +71,7 @@ def watch_live(
         raise UserError(str(error)) from error
     folder = out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}" / "recordings"
     path = unused(folder, seed)
-    every = max(1, round(FRAMES_EVERY / session.scene.cycle_time))
+    every = max(1, round(RECORDED_EVERY / session.scene.cycle_time))
     session.advance(0)
     session.record(Recorder(path, head_of(name, configuration, seed, system), session.scene, session.state, every))
     code = show(session, system, f"{system.name}, seed {seed}", page, lambda: {"note": ""})

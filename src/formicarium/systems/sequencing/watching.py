@@ -177,7 +177,7 @@ def intervene(state: Any, intervention: Intervention) -> None:
 def tell(event: Any) -> str:
     """Say in a sentence what happened."""
     kind, robot, subject, value, detail = (int(event[name]) for name in ("kind", "robot", "subject", "value", "detail"))
-    who = f"robot {robot}"
+    who = f"robot {robot}" if robot else "the visitor"
     match kind:
         case EventKind.ROLE:
             what = f"of {colour(subject)}" if value == Role.GUARDIAN else f"in branch {subject}" if subject else ""

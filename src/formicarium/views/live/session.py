@@ -40,8 +40,14 @@ class Session:
     touchable = True
 
     def __init__(
-        self, system: System, parameters: Any, seed: int, planned: Sequence[Intervention] = (), checks: Checks | None = None
-    ):  # fmt: skip
+        self,
+        system: System,
+        parameters: Any,
+        seed: int,
+        planned: Sequence[Intervention] = (),
+        checks: Checks | None = None,
+        scrubbed: bool = True,
+    ):
         """Begin the trial.
 
         Args:
@@ -50,6 +56,7 @@ class Session:
             seed: decides everything that is random.
             planned: interventions to make again, by cycle.
             checks: digests that the trial must have.
+            scrubbed: whether the trial may be sent back; snapshots are kept only then.
 
         Raises:
             Unwatchable: if the system does not say how it is shown.
@@ -73,6 +80,7 @@ class Session:
         self._looked = 0  # events of all cycles before this one are in the log
         self._over = False
         self.snapshots = Snapshots(self.state)
+        self._scrubbed = scrubbed
         self._arrive()
 
     @property
@@ -141,7 +149,7 @@ class Session:
                 self._end()
         if self.checks:
             self.checks.compare(cycle, self.state, new)
-        if self.snapshots.due(cycle):
+        if self._scrubbed and self.snapshots.due(cycle):
             self._look()
             self.snapshots.take(cycle, self.done)
         while self.done < len(self.interventions) and self.interventions[self.done].cycle <= cycle:

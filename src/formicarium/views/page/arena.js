@@ -1,6 +1,7 @@
 // The arena from above on a canvas: what does not move is drawn once, robots are stamps that are made once.
 
-const TRAIL = 60; // places kept of each robot
+const TRAIL = 300; // cycles that a trail lasts
+const MOST_PLACES = 80; // of one trail
 const STAMP_SCALES = [24, 40, 64, 96, 160]; // pixels across a stamped robot
 
 export class Arena {
@@ -211,8 +212,8 @@ export class Arena {
     this.trails.forEach((trail, i) => {
       const last = trail.at(-1);
       if (last && Math.hypot(last[0] - shown.x[i], last[1] - shown.y[i]) > 1) trail.length = 0;
-      trail.push([shown.x[i], shown.y[i]]);
-      if (trail.length > TRAIL) trail.shift();
+      trail.push([shown.x[i], shown.y[i], cycle]);
+      while (trail.length > MOST_PLACES || trail[0][2] < cycle - TRAIL) trail.shift();
     });
   }
 
@@ -300,12 +301,13 @@ export class Arena {
       this.scene.ranges.forEach(([name, reach], k) => {
         this.ring(context, x[i], y[i], reach, this.accent, 1, whose.length > 1 ? 0.25 : 0.8, k ? [] : [6, 5]);
         if (whose.length > 1) return;
-        const [px, py] = this.at(x[i], y[i] + reach);
+        const side = y[i] + reach > this.high[1] ? -1 : 1; // above the circle if there is room
+        const [px, py] = this.at(x[i], y[i] + side * reach);
         context.fillStyle = this.accent;
         context.font = `${11 * this.ratio}px system-ui, sans-serif`;
         context.textAlign = "center";
-        context.textBaseline = "bottom";
-        context.fillText(`${name} ${reach.toFixed(2)} m`, px, Math.max(py - 3, 14 * this.ratio));
+        context.textBaseline = side > 0 ? "bottom" : "top";
+        context.fillText(`${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
       });
     }
   }
