@@ -19,6 +19,8 @@ from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
 from formicarium.commands.errors import UserError
+from formicarium.commands.export import export
+from formicarium.commands.movie import movie
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
 from formicarium.commands.study import study
@@ -50,6 +52,8 @@ app.command(run)
 app.command(watch)
 app.command(replay)
 app.command(diff)
+app.command(movie)
+app.command(export)
 app.command(systems)
 app.command(describe)
 app.command(campaign)

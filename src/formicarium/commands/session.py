@@ -14,9 +14,9 @@ from formicarium.commands.errors import UserError
 from formicarium.commands.known import find_system, parameters_of
 from formicarium.commands.pictures import draw_run, draw_set
 from formicarium.commands.progress import Progress
+from formicarium.commands.runs import RECORDINGS
 from formicarium.commands.summary import print_summary
 from formicarium.commands.tables import EVERY
-from formicarium.commands.runs import RECORDINGS
 from formicarium.commands.work import as_json, configuration_of, function_of, record_run, recording_of
 from formicarium.compiled import PACKAGE
 
@@ -87,8 +87,8 @@ def perform(request: Request) -> int:
                     f"interrupted: {done} of {len(seeds)} runs are done and kept in {folder}. "
                     "The same command continues."
                 ) from None
-            for seed in seeds if recordings else ():
-                if seed in store.rows and not recording_of(recordings, seed).exists():
+            for seed in seeds:
+                if recordings and seed in store.rows and not recording_of(recordings, seed).exists():
                     progress.note(f"recording seed {seed}")
                     record_run(request.system, as_json(parameters), seed, recordings, progress.inside)
             pictures = draw_set(system, store, seeds, folder) if len(seeds) > 1 else []

@@ -66,14 +66,18 @@ def frames_of(film: Film, identity: np.ndarray) -> Frames:
     count = int(film.taken[0])
     shots = np.asarray(film.shots)[:count]
     column: dict[str, Any] = {name: shots[name][:, order] for name in SHOT.names or ()}
+    x, y, heading = (column[name].astype("f4") for name in ("x", "y", "heading"))
     return Frames(
-        film.cycle[:count].copy(),
-        *(column[name].astype("f4") for name in ("x", "y", "heading")),
-        *(column[name].astype("i1") for name in ("role", "carried")),
-        film.lit[:count].astype("i1"),
-        np.asarray(identity)[order].astype("i8"),
-        column["colour"].astype("i1"),
-        joined(column["place"], column["after"]),
+        cycle=film.cycle[:count].copy(),
+        x=x,
+        y=y,
+        heading=heading,
+        role=column["role"].astype("i1"),
+        carried=column["carried"].astype("i1"),
+        lit=film.lit[:count].astype("i1"),
+        identity=np.asarray(identity)[order].astype("i8"),
+        colour=column["colour"].astype("i1"),
+        joined=joined(column["place"], column["after"]),
     )
 
 

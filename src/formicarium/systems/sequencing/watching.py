@@ -89,9 +89,7 @@ def inspect(state: Any, identity: int) -> Inspection:
     sent = {head: message_of(content) for head, content in said(command).items()}
     leave = ("message", "heard", "adverts", "target", "predecessor", "successor")
     tracks = [(name, track(memory[name])) for name in leave[3:]]
-    adverts = {
-        colour(c): memory["adverts"][c] for c in range(1, len(memory["adverts"])) if memory["adverts"][c]["heard"] > NEVER
-    }  # fmt: skip
+    adverts = {colour(c): advert for c, advert in enumerate(memory["adverts"]) if c and advert["heard"] > NEVER}
     wheels = tuple((side, f"{float(command[side]):.4f} m/s") for side in ("left", "right"))
     role = Role(int(memory["role"])).name.lower() if state.robots["alive"][i] == 1 else "dead"
     summary = f"{role}, {State(int(memory['state'])).name.lower().replace('_', ' ')}"
@@ -138,7 +136,15 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
         return f"in {seconds:.1f} s" if seconds > 0 else f"{-seconds:.1f} s ago"
 
     moments = (
-        *("since", "inhibition_heard", "inhibition_ahead", "echo_heard", "chain_seen", "watched_since", "verdict_heard"),
+        *(
+            "since",
+            "inhibition_heard",
+            "inhibition_ahead",
+            "echo_heard",
+            "chain_seen",
+            "watched_since",
+            "verdict_heard",
+        ),
         *("inhibiting_until", "refuse_until", "abstain_until", "wander_until", "requested", "settled", "echo_until"),
         "heard",
     )

@@ -7,6 +7,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,18 +78,14 @@ class Player:
 
     def ask(self, page: Any, wish: Wish) -> None:
         """Ask for something on behalf of a page; returns at once."""
-        try:
+        with suppress(queue.Full):
             self._wishes.put_nowait((page, wish))
-        except queue.Full:
-            pass
 
     def stop(self) -> None:
         """End the thread."""
         self._stopping = True
-        try:
+        with suppress(queue.Full):
             self._wishes.put_nowait(None)
-        except queue.Full:
-            pass
         if self.thread.ident is not None:
             self.thread.join()
         self.session.stop()

@@ -114,7 +114,11 @@ class Audience:
     async def open(self, _: Starlette) -> AsyncIterator[None]:
         """Play while the server runs."""
         loop = asyncio.get_running_loop()
-        self.player.audience = lambda: loop.call_soon_threadsafe(self._wake)
+
+        def told() -> None:
+            loop.call_soon_threadsafe(self._wake)
+
+        self.player.audience = told
         self.player.thread.start()
         try:
             yield
@@ -136,7 +140,10 @@ class Audience:
         self._pages[page] = news
         self.player.watched = True
         self.player.refresh()
-        tasks = [asyncio.create_task(self._talk(page, connection, news)), asyncio.create_task(self._hear(page, connection))]
+        tasks = [
+            asyncio.create_task(self._talk(page, connection, news)),
+            asyncio.create_task(self._hear(page, connection)),
+        ]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:

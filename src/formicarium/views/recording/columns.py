@@ -73,5 +73,5 @@ def unpacked(content: bytes, identity: np.ndarray) -> Frames:
     role, carried, colour = (narrow("i1", robots) for _ in range(3))
     joined, lit = narrow("<i2", robots), narrow("i1", devices)
     cycle = first + every * np.arange(count, dtype="i8")
-    places = [column.astype("f4") for column in (x, y, heading)]
-    return Frames(cycle, *places, role, carried, lit, identity, colour, joined)
+    x, y, heading = (column.astype("f4") for column in (x, y, heading))
+    return Frames(cycle, x, y, heading, role, carried, lit, identity, colour, joined)

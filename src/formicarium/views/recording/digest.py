@@ -12,8 +12,13 @@ SIZE = 8  # bytes
 
 def digest(state: Any) -> bytes:
     """Return a hash of everything that decides how a trial goes on: bodies and all records of robots and devices."""
-    found = hashlib.blake2b(np.ascontiguousarray(state.world.bodies).view("u1"), digest_size=SIZE)
+    found = hashlib.blake2b(bytes_of(state.world.bodies), digest_size=SIZE)
     for name, part in state._asdict().items():
         if name not in LEFT_OUT and not isinstance(part, tuple):
-            found.update(np.ascontiguousarray(part).view("u1"))
+            found.update(bytes_of(part))
     return found.digest()
+
+
+def bytes_of(array: np.ndarray) -> memoryview:
+    """Return the bytes of an array; they are not copied unless it has gaps."""
+    return np.ascontiguousarray(array).view("u1").data

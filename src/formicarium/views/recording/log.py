@@ -96,11 +96,9 @@ def sliced(frames: Frames, chosen: Any) -> Frames:
 def joined_frames(strips: list[Frames], identity: np.ndarray, head: Mapping[str, Any]) -> Frames:
     """Return strips of frames as one."""
     if not strips:
-        none, devices = np.zeros((0, len(identity))), len(head["scene"]["polygons"]) - 1
-        return Frames(
-            np.zeros(0, "i8"), *[none.astype("f4")] * 3, none.astype("i1"), none.astype("i1"),
-            np.zeros((0, devices), "i1"), identity, none.astype("i1"), none.astype("i2"),
-        )  # fmt: skip
+        places, small = np.zeros((0, len(identity)), "f4"), np.zeros((0, len(identity)), "i1")
+        lit = np.zeros((0, len(head["scene"]["polygons"]) - 1), "i1")
+        return Frames(np.zeros(0, "i8"), places, places, places, small, small, lit, identity, small, small.astype("i2"))
     columns = {
         name: identity if name == "identity" else np.concatenate([getattr(strip, name) for strip in strips])
         for name in Frames._fields

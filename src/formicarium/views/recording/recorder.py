@@ -30,9 +30,7 @@ MOST_BYTES = 32_000_000  # of frames that wait to be packed
 class Recorder:
     """Writes one recording."""
 
-    def __init__(
-        self, path: Path, content: Mapping[str, Any], scene: Scene, state: Any, every: int
-    ):
+    def __init__(self, path: Path, content: Mapping[str, Any], scene: Scene, state: Any, every: int):
         """Begin a file.
 
         Args:
