@@ -1,6 +1,6 @@
 // The arena from above on a canvas: what does not move is drawn once, robots are stamps that are made once.
 
-const TRAIL = 300; // cycles that a trail lasts
+const TRAIL = 150; // cycles that a trail lasts
 const MOST_PLACES = 80; // of one trail
 const STAMP_SCALES = [24, 40, 64, 96, 160]; // pixels across a stamped robot
 
@@ -283,8 +283,8 @@ export class Arena {
       if (!byRole.has(role[i])) byRole.set(role[i], []);
       byRole.get(role[i]).push(trail);
     });
-    context.lineWidth = 1.6 * this.ratio;
-    context.globalAlpha = 0.55;
+    context.lineWidth = 1.4 * this.ratio;
+    context.globalAlpha = 0.45;
     for (const [number, trails] of byRole) {
       context.strokeStyle = this.styles[number].chained ? this.styles[number].fill : this.pale;
       context.beginPath();

@@ -30,6 +30,10 @@ const told = {
       }));
       showBlocked();
     }
+    if (!content.touchable) {
+      find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
+      document.querySelector("[data-layer=packets]").hidden = true;
+    }
     if (content.identity.length > 80) setLayer("trails", false);
   },
   frame(frame) {
@@ -66,7 +70,7 @@ const told = {
     list();
   },
   events({ again, rows }) {
-    if (again) now.events = [];
+    if (again) [now.events, now.size] = [[], ""];
     now.events.push(...rows);
     list();
   },
@@ -124,8 +128,12 @@ function draw(time) {
 
 function list() {
   const kind = find("kinds").value, cycle = now.status.cycle ?? 0;
-  const all = [...now.events, ...now.hands].sort((a, b) => a[0] - b[0]);
-  const shown = all.filter(([at]) => at <= cycle).length;
+  const size = `${now.events.length}/${now.hands.length}/${now.status.turns}`;
+  if (now.size !== size) {
+    now.size = size;
+    now.all = [...now.events, ...now.hands].sort((a, b) => a[0] - b[0]);
+  }
+  const all = now.all, shown = before(all, cycle);
   const key = [kind, shown, all.length, now.status.frontier === cycle ? Math.floor(cycle / 50) : cycle, find("scrub").max].join();
   if (key === listed) return;
   listed = key;
@@ -134,6 +142,17 @@ function list() {
   }
   const colours = Object.fromEntries(["line", "pale", "mark", "accent"].map((name) => [name, arena.get(`--${name}`)]));
   showMarks(find("marks"), all, Number(find("scrub").max), now.status.frontier ?? 0, colours);
+}
+
+// How many of the sorted events are no later than a cycle.
+function before(all, cycle) {
+  let [low, high] = [0, all.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (all[middle][0] <= cycle) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }
 
 function showBlocked() {
@@ -157,7 +176,7 @@ function select(column) {
   find("choose").value = now.selected;
   find("touch").hidden = column < 0 || !hello.touchable;
   find("summary").value = "";
-  if (column < 0) find("inside").replaceChildren();
+  if (column < 0) find("inside").replaceChildren(element("p", { className: "hint", textContent: "Click a robot to look into it." }));
   else if (now.frame) [find("x").value, find("y").value] = [now.frame.x[column].toFixed(2), now.frame.y[column].toFixed(2)];
   ask({ do: "select", robot: now.selected });
 }
