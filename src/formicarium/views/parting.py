@@ -50,11 +50,9 @@ def _parted(a: Session, b: Session) -> Parting:
     for (path, one), (_, other) in zip(_leaves(a.state), _leaves(b.state), strict=False):
         if one.shape != other.shape:
             return Parting(a.cycle, 0, path, f"{one.shape[0]} records", f"{other.shape[0]} records")
-        apart = np.nonzero(one.view("u1") != other.view("u1")) if one.dtype.kind != "f" else None
-        if apart is None:
-            apart = np.nonzero(~((one == other) | (np.isnan(one) & np.isnan(other))))
-        if len(apart[0]):
-            i = int(apart[0][0])
+        apart = np.nonzero(one != other)[0]
+        if len(apart):
+            i = int(apart[0])
             robots = np.asarray(a.state.robots["identity"])
             owner = int(robots[i]) if len(one) == len(robots) else 0
             return Parting(a.cycle, owner, path, _value(one[i]), _value(other[i]))
