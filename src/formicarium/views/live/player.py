@@ -28,6 +28,7 @@ from formicarium.views.live.wire import (
 )
 
 PICTURE = 1.0 / 30.0  # s of wall clock between two pictures
+HURRIED_PICTURE = 1.0 / 12.0  # the same while the trial runs as fast as it goes: pictures take its time
 SLICE = 0.02  # s of wall clock for which the trial runs before anything else is looked after
 INSPECTED = 0.12  # s of wall clock between two inspections
 MOST_WISHES = 1000  # that wait; more are let go
@@ -98,7 +99,7 @@ class Player:
                 moved = self._run(now - before)
                 before = now
                 changed = self._listen(0.0 if moved and self._hurried else self._pause(drawn))
-                if changed or (moved and time.perf_counter() - drawn >= PICTURE * 0.9):
+                if changed or (moved and time.perf_counter() - drawn >= self._between * 0.9):
                     drawn = time.perf_counter()
                     self._publish(changed)
         except BaseException as error:  # told on the page and by the command
@@ -110,6 +111,10 @@ class Player:
     @property
     def _hurried(self) -> bool:
         return self._target is not None or (self.playing and self.speed == 0)
+
+    @property
+    def _between(self) -> float:
+        return HURRIED_PICTURE if self._hurried else PICTURE
 
     def _pause(self, drawn: float) -> float:
         if not self.playing or self.session.finished:
