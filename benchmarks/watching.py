@@ -111,7 +111,7 @@ print(min(counts, default=0), flush=True)
 def audience() -> None:
     """Time a trial as fast as it goes, with one page looking and with ten, in turn; the pages are another process."""
     for setting, robots, cycles in ((0, 20, 15_000), (4, 216, 2500)):
-        times: dict[int, list[float]] = {0: [], 1: [], PAGES: []}
+        times: dict[int, list[tuple[float, float]]] = {0: [], 1: [], PAGES: []}
         messages = []
         with Served(setting, robots, 5, 0.0, playing=False) as served:
             sprint(served, cycles)
@@ -125,28 +125,28 @@ def audience() -> None:
                     taken.append(sprint(served, cycles))
                     least = int(lookers.communicate("")[0])
                     messages += [least] if pages == PAGES else []
-        each = statistics.median(times[0]) / cycles * 1e6
         for pages in (1, PAGES):
-            ratio = [with_pages / alone for with_pages, alone in zip(times[pages], times[0], strict=True)]
-            print(
-                f"{pages} pages on {robots} robots: {spread(ratio)} times the trial alone ({each:.0f} us a cycle alone)"
-            )
+            pairs = list(zip(times[pages], times[0], strict=True))
+            wall, processor = ([some[k] / alone[k] for some, alone in pairs] for k in (0, 1))
+            print(f"{pages} pages on {robots} robots: wall clock {spread(wall)} times that of the trial alone;")
+            print(f"    processor time of the trial's thread {spread(processor)} times")
         print(f"   messages to the slowest page in one trial: {statistics.median(messages):.0f}")
 
 
-def sprint(served: Served, cycles: int) -> float:
-    """Return the seconds that the trial takes from its beginning to ``cycles`` as fast as it goes."""
+def sprint(served: Served, cycles: int) -> tuple[float, float]:
+    """Return the seconds, of the wall clock and of its thread, that a trial takes to ``cycles`` from its beginning."""
     player, session = served.player, served.session
     player.ask(None, Seek(do="seek", cycle=0))
     while session.cycle != 0:
         time.sleep(0.01)
     time.sleep(0.1)
     session.snapshots.forget_after(0)  # or the trial would jump to where it has been
-    start = time.perf_counter()
+    clock = time.pthread_getcpuclockid(player.thread.ident)
+    start, spent = time.perf_counter(), time.clock_gettime(clock)
     player.ask(None, Seek(do="seek", cycle=cycles))
     while session.cycle < cycles and not session.finished:
         time.sleep(0.005)
-    return time.perf_counter() - start
+    return time.perf_counter() - start, time.clock_gettime(clock) - spent
 
 
 def drawing() -> None:
