@@ -8,6 +8,7 @@ import pytest
 from formicarium.commands.main import exit_code
 from formicarium.systems.registry import resolve
 from formicarium.views.live.session import Session
+from formicarium.views.notebook import Replay
 from formicarium.views.recording.log import read_recording
 from views.conftest import command, until
 
@@ -210,3 +211,15 @@ def test_one_html_file_plays_without_server_or_network(opened, tmp_path):
     wanted = np.concatenate([frames.x[k], frames.y[k]])
     assert np.abs(np.subtract(page.evaluate(PLACES), wanted)).max() < 1e-3
     assert "http" not in "".join(page.evaluate("performance.getEntriesByType('resource').map((e) => e.name)"))
+
+
+def test_a_notebook_cell_plays(browser, tmp_path):
+    run = ["run", "mark-i3", "--seed", "4", "--record", "--set", "time_cap=60", "--out", str(tmp_path / "r")]
+    assert exit_code([*run, "--workers", "1"]) == 0
+    page = browser.new_page()
+    page.set_content(f"<p>a cell</p>{Replay(tmp_path / 'r' / 'recordings' / 'seed-4.recording')._repr_html_()}")
+    frame = page.frames[1]
+    until(frame, "window.watching && watching.now.frame")
+    frame.locator("#play").click()
+    until(frame, f"{CYCLE} > 30")
+    page.close()

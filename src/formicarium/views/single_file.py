@@ -65,13 +65,16 @@ def single_file(
     content = {"hello": hello, "film": film(frames, interventions), "events": events, "note": "recorded frames"}
     text = text_of("index.html").replace("{{title}}", escape(title))
     text = text.replace('<link rel="stylesheet" href="/page/style.css">', f"<style>\n{text_of('style.css')}</style>")
-    # Modules inside a file cannot name each other by place: the map gives each its text.
-    modules = {f"./{name}": f"data:text/javascript;base64,{_base64(text_of(name).encode())}" for name in MODULES}
+    # Inside a file there are no places that modules could be named by: the map gives each name its text.
+    main = text_of("main.js").replace('from "./', 'from "formicarium/')
+    modules = {
+        f"formicarium/{name}": f"data:text/javascript;base64,{_base64(text_of(name).encode())}" for name in MODULES
+    }
     data = json.dumps(content).replace("</", "<\\/")  # no text of ours may end the script early
     inside = (
         f'<script type="importmap">{json.dumps({"imports": modules})}</script>\n'
         f'<script id="film" type="application/json">{data}</script>\n'
-        f'<script type="module">\n{text_of("main.js")}</script>'
+        f'<script type="module">\n{main}</script>'
     )
     return text.replace('<script type="module" src="/page/main.js"></script>', inside)
 

@@ -18,7 +18,8 @@ class LoggedFrames:
 
     def __init__(self, scene: Scene, frames: Frames, events: np.ndarray, interventions: tuple[Intervention, ...]):
         """Show frames from the first on; there must be one."""
-        self.scene, self.events, self.interventions = scene, events, interventions
+        self.scene, self.interventions = scene, interventions
+        self.logs = [events]
         self.identity = frames.identity
         none = np.full(frames.x.shape, -1, "i2")
         self._frames = frames._replace(

@@ -12,6 +12,7 @@ import socket
 from collections.abc import AsyncIterator, Callable
 from typing import Any
 
+import numpy as np
 import uvicorn
 from pydantic import ValidationError
 from starlette.applications import Starlette
@@ -176,7 +177,7 @@ class Audience:
 
         with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError, OSError):
             await send(said("hello", **self._hello))
-            told, turns, noticed, status, inspected = 0, 0, 0, "", None
+            told, logs, noticed, status, inspected = 0, None, 0, "", None
             while True:
                 shown = self.player.shown
                 session = self.player.session
@@ -184,10 +185,10 @@ class Audience:
                 if shown.status != status:
                     status = shown.status
                     await send(status)
-                if session.turns != turns:
-                    turns, told = session.turns, 0
+                if session.logs is not logs:  # the first time, and when the trial has taken another turn
+                    logs, told = session.logs, 0
                     await send(said("events", again=True, rows=[]))
-                told = await self._tell_events(send, told)
+                told = await self._tell_events(send, logs, told)
                 if shown.notice[0] > noticed:
                     noticed = shown.notice[0]
                     await send(said("notice", text=shown.notice[1]))
@@ -199,15 +200,17 @@ class Audience:
                     await news.wait()
                 news.clear()
 
-    async def _tell_events(self, send: Callable[[str], Any], told: int) -> int:
-        events = self.player.session.events
-        while told < len(events):
-            some = events[told : told + EVENTS_AT_ONCE]
-            rows = [[int(e["cycle"]), self._kinds[int(e["kind"])], int(e["robot"]), self._tell(e)] for e in some]
-            await send(said("events", again=False, rows=rows))
-            told += len(some)
-            await asyncio.sleep(0)
-        return told
+    async def _tell_events(self, send: Callable[[str], Any], logs: list[np.ndarray], told: int) -> int:
+        """Send the logs after the first ``told``; return how many there are now."""
+        count = len(logs)
+        rows = [
+            [int(event["cycle"]), self._kinds[int(event["kind"])], int(event["robot"]), self._tell(event)]
+            for log in logs[told:count]
+            for event in log
+        ]
+        for first in range(0, len(rows), EVENTS_AT_ONCE):
+            await send(said("events", again=False, rows=rows[first : first + EVENTS_AT_ONCE]))
+        return count
 
 
 def application(audience: Audience, host: str, title: str) -> Starlette:

@@ -75,8 +75,7 @@ class Session:
         self.turns = 0  # how often the trial has taken another turn, by an intervention in its past
         self.recorder: Recorder | None = None
         self._still = make_film(1, len(self.identity), self.scene)
-        self._logs: list[np.ndarray] = []
-        self._joined: np.ndarray = np.zeros(0, EVENT)
+        self.logs: list[np.ndarray] = []  # events in the order of looks; only ever added to, so that others may read it
         self._looked = 0  # events of all cycles before this one are in the log
         self._over = False
         self.snapshots = Snapshots(self.state)
@@ -101,10 +100,7 @@ class Session:
     @property
     def events(self) -> np.ndarray:
         """All events up to the frontier, in order."""
-        if self._logs:
-            self._joined = np.concatenate([self._joined, *self._logs])
-            self._logs = []
-        return self._joined
+        return np.concatenate([np.zeros(0, EVENT), *self.logs])
 
     def record(self, recorder: Recorder) -> None:
         """Record the trial from its beginning."""
@@ -162,7 +158,7 @@ class Session:
             found = drain(self.state)
             found = found[found["cycle"] >= self._looked]
             if len(found):
-                self._logs.append(found)
+                self.logs.append(found)
                 if self.recorder:
                     self.recorder.note(found)
         self._looked = max(self._looked, int(self._cycle[0]))
@@ -236,7 +232,7 @@ class Session:
     def _cut(self, cycle: int) -> None:
         """Forget all that came after a cycle."""
         events = self.events
-        self._joined = events[events["cycle"] < cycle]
+        self.logs = [events[events["cycle"] < cycle]]
         self.frontier = self._looked = cycle
         self.snapshots.forget_after(cycle)
         self._over = False
