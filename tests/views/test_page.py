@@ -175,6 +175,24 @@ def test_the_keyboard_does_what_the_buttons_do(watched, opened):
     until(page, "!watching.now.status.playing")
 
 
+def test_one_can_go_nearer_and_still_click_the_right_robot(watched, opened):
+    page = opened(watched)
+    settled(page)
+    x, y = page.evaluate("watching.arena.place(11)")
+    page.mouse.move(x, y)
+    before = page.evaluate("watching.arena.scale")
+    page.mouse.wheel(0, -500)
+    until(page, f"watching.arena.scale > {2 * before}")
+    time.sleep(0.2)
+    nearer = page.evaluate("watching.arena.place(11)")
+    assert np.hypot(nearer[0] - x, nearer[1] - y) < 3
+    page.mouse.click(*nearer)
+    until(page, "watching.now.inspection")
+    assert page.evaluate("watching.now.selected === watching.hello.identity[11]")
+    page.mouse.dblclick(*nearer)
+    until(page, f"watching.arena.scale === {before}")
+
+
 def test_every_control_has_a_name(watched, opened):
     page = opened(watched)
     nameless = page.evaluate(

@@ -133,6 +133,8 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
         seconds = (int(value) - cycle) * cycle_time
         if value <= NEVER:
             return "never"
+        if seconds == 0:
+            return "now"
         return f"in {seconds:.1f} s" if seconds > 0 else f"{-seconds:.1f} s ago"
 
     moments = (

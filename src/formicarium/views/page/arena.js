@@ -41,8 +41,9 @@ export class Arena {
       canvas.height = Math.round(height * ratio);
     }
     const span = Math.max(this.high[0] - this.low[0], 0.1), rise = Math.max(this.high[1] - this.low[1], 0.1);
-    this.scale = (Math.min(width / (span * 1.06), height / (rise * 1.06))) * ratio;
-    this.middle = [(this.low[0] + this.high[0]) / 2, (this.low[1] + this.high[1]) / 2];
+    this.whole = Math.min(width / (span * 1.06), height / (rise * 1.06)) * ratio; // pixels a metre, unmagnified
+    this.scale = this.whole * this.zoom;
+    this.middle ??= [(this.low[0] + this.high[0]) / 2, (this.low[1] + this.high[1]) / 2];
     this.ratio = ratio;
     this.ink = this.get("--ink");
     this.pale = this.get("--pale");
@@ -67,6 +68,23 @@ export class Arena {
       (px - this.canvas.width / 2) / this.scale + this.middle[0],
       (this.canvas.height / 2 - py) / this.scale + this.middle[1],
     ];
+  }
+
+  // Magnify by a factor; the place [x, y] stays where it is.
+  magnify(factor, [x, y]) {
+    const before = this.scale;
+    this.zoom = Math.min(Math.max(this.zoom * factor, 1), 20);
+    const kept = before / (this.whole * this.zoom);
+    this.middle = this.zoom === 1 ? null : [x - (x - this.middle[0]) * kept, y - (y - this.middle[1]) * kept];
+    this.resize();
+  }
+
+  // Move what is seen by so many pixels of the page.
+  shift(dx, dy) {
+    if (this.zoom === 1) return;
+    this.middle = [this.middle[0] - (dx * this.ratio) / this.scale, this.middle[1] + (dy * this.ratio) / this.scale];
+    this.drawStill();
+    this.stale = true;
   }
 
   // Where a robot is drawn, in pixels of the page.
@@ -106,7 +124,7 @@ export class Arena {
       context.fill();
       context.stroke();
     }
-    const length = this.high[0] - this.low[0] > 1.2 ? 0.5 : 0.1;
+    const length = (this.high[0] - this.low[0]) / this.zoom > 1.2 ? 0.5 : 0.1;
     const [left, bottom] = [14 * this.ratio, this.still.height - 14 * this.ratio];
     context.strokeStyle = context.fillStyle = this.ink;
     context.lineWidth = 2 * this.ratio;

@@ -208,6 +208,11 @@ function setTheme(theme) {
   listed = "";
 }
 
+function middleOfChosen() {
+  const { selected, shown, middle } = arena;
+  return selected >= 0 && shown ? [shown.x[selected], shown.y[selected]] : middle;
+}
+
 const deeds = {
   play: () => ask({ do: now.status.playing && !now.status.finished ? "pause" : "play" }),
   step: (cycles = 1) => ask(cycles === 1 ? { do: "step", cycles } : { do: "seek", cycle: now.frame.cycle + cycles }),
@@ -249,17 +254,26 @@ canvas.onpointermove = (event) => {
     canvas.style.cursor = arena.robotAt(arena.metres(event)) >= 0 ? "pointer" : "";
     return;
   }
-  if (pressed.column < 0 || !hello.touchable || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 6) return;
+  if (pressed.column < 0) {
+    arena.shift(event.movementX, event.movementY);
+    return;
+  }
+  if (!hello.touchable || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 6) return;
   const [x, y] = arena.metres(event);
   arena.held = { column: pressed.column, x, y };
   arena.stale = true;
 };
 canvas.onpointerup = () => {
   if (arena.held) ask({ do: "move", subject: hello.identity[arena.held.column], x: arena.held.x, y: arena.held.y });
-  else if (pressed) select(pressed.column);
+  else if (pressed && (pressed.column >= 0 || arena.zoom === 1)) select(pressed.column);
   arena.held = pressed = null;
   arena.stale = true;
 };
+canvas.onwheel = (event) => {
+  event.preventDefault();
+  arena.magnify(Math.exp(-event.deltaY / 400), arena.metres(event));
+};
+canvas.ondblclick = () => arena.magnify(0, [0, 0]);
 canvas.onpointercancel = () => { arena.held = pressed = null; };
 
 document.onkeydown = (event) => {
@@ -290,6 +304,8 @@ document.onkeydown = (event) => {
     r: () => setLayer("ranges", !arena.layers.ranges),
     n: () => setLayer("names", !arena.layers.names),
     d: () => find("theme").click(),
+    z: () => arena.magnify(1.5, middleOfChosen()),
+    Z: () => arena.magnify(1 / 1.5, middleOfChosen()),
     Escape: () => select(-1),
     "?": () => find("keys").showModal(),
   };
