@@ -38,7 +38,7 @@ class Served:
 
     def __init__(self, setting: int, robots: int | None, seed: int, speed: float, playing: bool = True):
         self.session = Session(SYSTEM, SYSTEM.configure(setting=setting, robots=robots), seed)
-        self.session.advance(0)
+        self.session.warm_up()
         self.player = Player(self.session, speed, playing, lambda: {"note": ""})
         hello = {"title": f"mark-i3, seed {seed}", **look_of(self.session.scene)}
         hello |= {"identity": self.session.identity.tolist(), "kinds": list(SYSTEM.kinds)}

@@ -26,6 +26,7 @@ class Served:
 
     def __init__(self, speed=20.0, playing=True):
         self.session = Session(SYSTEM, SYSTEM.configure(), 3)
+        self.session.warm_up()
         self.player = Player(self.session, speed, playing, lambda: {"note": ""})
         hello = {"title": "t", **look_of(self.session.scene), "identity": self.session.identity.tolist()}
         hello |= {"kinds": list(SYSTEM.kinds), "last_cycle": self.session.last_cycle, "touchable": True}

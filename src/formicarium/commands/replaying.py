@@ -44,6 +44,7 @@ def replay_run(place: str, seed: int | None, page: Page) -> int:
         note = {"note": "recorded frames, not verified: the sources have changed"}
         return show(logged(run), run.system, f"{run.title}, replay", page, lambda: note)
     session = session_of(run)
+    session.warm_up()
     return show(session, run.system, f"{run.title}, replay", page, lambda: {"note": verdict(run, session)})
 
 

@@ -72,7 +72,7 @@ def watch_live(
     folder = out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}" / "recordings"
     path = unused(folder, seed)
     every = max(1, round(RECORDED_EVERY / session.scene.cycle_time))
-    session.advance(0)
+    session.warm_up()
     session.record(Recorder(path, head_of(name, configuration, seed, system), session.scene, session.state, every))
     code = show(session, system, f"{system.name}, seed {seed}", page, lambda: {"note": ""})
     print(f"recording {path}\nreplay it with: formicarium replay {path}")

@@ -102,6 +102,14 @@ class Session:
         """All events up to the frontier, in order."""
         return np.concatenate([np.zeros(0, EVENT), *self.logs])
 
+    def warm_up(self) -> None:
+        """Load or compile the code, on a state that is then let go, so that nobody waits for it later."""
+        begin, run, watching = watching_of(self.system)
+        spare = begin(self.parameters, 0)
+        run(spare, 1)
+        watching.roll(spare, 1, 1, make_film(1, len(self.identity), self.scene))
+        watching.shoot(spare, make_film(1, len(self.identity), self.scene))
+
     def record(self, recorder: Recorder) -> None:
         """Record the trial from its beginning."""
         self.recorder = recorder
