@@ -1,5 +1,7 @@
 """watch, replay, diff, movie and export as they are typed."""
 
+import json
+import re
 import shutil
 import socket
 import struct
@@ -16,9 +18,13 @@ from formicarium.commands import extras
 from formicarium.commands.main import exit_code
 from formicarium.commands.replaying import session_of
 from formicarium.commands.runs import recorded_run
+from formicarium.systems.registry import resolve
+from formicarium.views.live.session import Session
 from formicarium.views.notebook import Replay
 from formicarium.views.parting import first_state_apart
+from formicarium.views.recording.blocks import read_blocks
 from formicarium.views.recording.log import read_recording
+from formicarium.views.recording.recorder import Recorder
 
 SHORT = ["--set", "time_cap=90", "--workers", "1"]
 
@@ -53,6 +59,23 @@ def test_a_flipped_byte_is_reported(folder, tmp_path, capsys):
     (tmp_path / "a.recording").write_bytes(content)
     assert exit_code(["replay", str(tmp_path / "a.recording"), "--check"]) == 1
     assert "is damaged: block" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("share", [0.3, 0.62, 0.97])
+def test_a_recording_that_was_cut_off_is_good_up_to_there(folder, tmp_path, capsys, share):
+    parameters = resolve("mark-i3").configure()
+    session = Session(resolve("mark-i3"), parameters, 2)
+    path = tmp_path / "whole.recording"
+    head = json.loads(next(read_blocks(Path(recording(folder, 5)))).content)
+    head = {**head, "parameters": parameters.model_dump(mode="json"), "seed": 2}
+    session.record(Recorder(path, head, session.scene, session.state, 5))
+    session.advance(4321)
+    session.stop()
+    content = path.read_bytes()
+    cut = tmp_path / "cut.recording"
+    cut.write_bytes(content[: int(share * len(content))])
+    assert exit_code(["replay", str(path), "--check"]) == exit_code(["replay", str(cut), "--check"]) == 0
+    assert re.findall(r"verified: (\d+) cycles", capsys.readouterr().out)[0] == "4321"
 
 
 def test_a_forged_digest_is_reported(folder, tmp_path, capsys, monkeypatch):

@@ -67,8 +67,10 @@ def trouble(run: Run, session: Any) -> str:
         return f"the state differs from the recording at {clock(checks.differs * cycle_time)} (cycle {checks.differs})"
     if run.checks and checks.agreed < checks.last:
         return f"the trial ends at cycle {session.frontier}, the recording goes on to {run.end}"
-    events = session.events[session.events["cycle"] < run.end] if run.outcome is None else session.events
-    if events.tobytes() != run.events.tobytes():
+    events, stored = session.events, run.events
+    if run.outcome is None:  # left or cut off: what came after the last frame may not be whole
+        events, stored = (log[log["cycle"] < run.end] for log in (events, stored))
+    if events.tobytes() != stored.tobytes():
         return "the events differ from the stored ones"
     if run.outcome is not None and dict(run.outcome) != dict(session.outcome()):
         return "the outcome differs from the stored one"

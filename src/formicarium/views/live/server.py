@@ -67,6 +67,8 @@ class Doorkeeper:
         """Guard ``app``, which listens on ``host``."""
         self._app = app
         self._names = {"localhost", host.lower()}
+        if host not in ("127.0.0.1", "::1", "localhost"):
+            self._names.add(socket.gethostname().lower())  # others reach this machine by its name
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Let a request through, or refuse it."""

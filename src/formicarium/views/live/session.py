@@ -148,6 +148,7 @@ class Session:
         if new:
             self.frontier = cycle
             if self.recorder and self.recorder.full:
+                self._look()  # a file that is cut off has all events up to its last frame
                 self.recorder.flush(cycle)
             if self.finished and not self._over:
                 self._end()

@@ -43,7 +43,7 @@ const told = {
       if (frame.jump || (now.frame && frame.cycle < now.frame.cycle)) arena.forget();
     } else {
       now.before = blended(time);
-      if (frame.cycle > now.frame.cycle) now.interval = 0.7 * now.interval + 0.3 * Math.min(time - now.arrived, 400);
+      if (frame.cycle > now.frame.cycle) now.interval = 0.7 * now.interval + 0.3 * Math.min(time - now.arrived, 1200);
     }
     if (!now.frame || frame.cycle !== now.frame.cycle || frame.jump) now.arrived = time;
     now.frame = frame;

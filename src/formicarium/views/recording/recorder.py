@@ -85,6 +85,6 @@ class Recorder:
     def close(self, cycle: int, outcome: Mapping[str, Any] | None, check: bool = True) -> None:
         """Write what is left and end the file; without an outcome the trial was not finished."""
         self.flush(cycle, check)
-        if outcome is not None:
-            self._writer.write(END, json.dumps({"cycle": cycle, "outcome": dict(outcome)}).encode())
+        row = None if outcome is None else dict(outcome)
+        self._writer.write(END, json.dumps({"cycle": cycle, "outcome": row}).encode())
         self._writer.close()
