@@ -175,7 +175,9 @@ class Audience:
     async def _talk(self, page: int, connection: WebSocket, news: asyncio.Event) -> None:
         async def send(message: str | bytes) -> None:
             sending = connection.send_text(message) if isinstance(message, str) else connection.send_bytes(message)
-            await asyncio.wait_for(sending, SEND_PATIENCE)
+            # Not wait_for: in Python 3.11 it can swallow the cancelling of this task, and the page would stay for ever.
+            async with asyncio.timeout(SEND_PATIENCE):
+                await sending
 
         with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError, OSError):
             await send(said("hello", **self._hello))
