@@ -4,9 +4,10 @@
 
 A trial is a fixed amount of plain Python that takes about a second here (work), or a second of sleep (wait): on a
 machine that others use, only the second can be measured to a percent; what the coordinator computes comes on top.
-Bare and campaign take turns in the same run; both start their processes anew, and that is in the time. Reported are
-the median and the range over the repeats of the ratio of neighbours, the share of the workers' time that was spent
-inside trials, and the processor time of the coordinator.
+Bare and campaign take turns in the same run; both start their processes anew, and that is in the time. The bare ones
+are timed up to their last trial, the campaign until all is written and its processes have ended. Reported are the
+median and the range over the repeats of the ratio of neighbours, the share of the workers' time that was spent inside
+trials, and the processor time of the coordinator.
 """
 
 import statistics
@@ -16,6 +17,7 @@ import time
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 from formicarium.campaigns.cells import Job, cells_of
 from formicarium.campaigns.configuration import Configuration
@@ -39,22 +41,29 @@ def work(amount: int, seed: int, watch: object) -> Result:
     return Result({"value": value, **{f"column_{k}": value % (k + 2) for k in range(30)}}, {})
 
 
-def loop(amount: int, trials: int, first: int) -> None:
-    """Do the trials one after the other and keep nothing."""
+def loop(amount: int, trials: int, first: int, done: Any) -> None:
+    """Do the trials one after the other, keep nothing and say when they are done."""
     for seed in range(first, first + trials):
         work(amount, seed, None)
+    done.send(True)
 
 
 def bare(amount: int, trials: int, processes: int) -> float:
-    """Return the seconds that bare processes need for so many trials each."""
+    """Return the seconds that bare processes need for so many trials each, up to the last trial, not to their exit."""
     context = get_context("spawn")
     started = time.perf_counter()
-    crew = [context.Process(target=loop, args=(amount, trials, 1 + trials * k)) for k in range(processes)]
+    pipes = [context.Pipe(duplex=False) for _ in range(processes)]
+    crew = [
+        context.Process(target=loop, args=(amount, trials, 1 + trials * k, done)) for k, (_, done) in enumerate(pipes)
+    ]
     for process in crew:
         process.start()
+    for ours, _ in pipes:
+        ours.recv()
+    seconds = time.perf_counter() - started
     for process in crew:
         process.join()
-    return time.perf_counter() - started
+    return seconds
 
 
 def campaign(amount: int, trials: int, workers: int) -> tuple[float, float]:
@@ -95,8 +104,10 @@ if __name__ == "__main__":
         found = measure(amount, trials, repeats, workers)
         coordinating = (time.process_time() - before) / (trials * workers * repeats)
         overheads = [whole / alone - 1 for alone, whole, _ in found]
+        median = statistics.median(overheads)
         print(
-            f"{name}: overhead {statistics.median(overheads):+.1%} ({min(overheads):+.1%} to {max(overheads):+.1%}); "
+            f"{name}: overhead {median:+.1%} ({min(overheads):+.1%} to {max(overheads):+.1%}), "
+            f"{1 / (1 + median):.1%} of the bare speed; "
             f"coordinator {coordinating * 1000:.1f} ms of processor time a trial; "
             f"inside trials {statistics.median(share for _, _, share in found):.1%}; "
             f"seconds {', '.join(f'{alone:.2f}/{whole:.2f}' for alone, whole, _ in found)}",

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from formicarium.commands.main import exit_code, main
+from formicarium.commands.published import store
 from formicarium.commands.run import run
 
 ROOT = Path(__file__).parents[1]
@@ -46,6 +47,9 @@ def test_every_command_that_is_shown_works(line, tmp_path, monkeypatch):
         if "--runs" in words:
             words[words.index("--runs") + 1] = "2"
         words += ["--set", "time_cap=20", "--workers", "1"]
+    if words[0] == "study":
+        words[words.index("--runs") + 1] = "1"
+        monkeypatch.setattr(store, "MORE", ("swarm.time_cap=20",))
     with pytest.raises(SystemExit) as end:
         main(words)
     assert end.value.code in (0, None)

@@ -24,12 +24,24 @@ TESTS = Path(__file__).parents[1]
 
 
 def test_two_dask_workers_give_the_same_table(tmp_path):
-    """With a run that raises, one that kills what runs it, and one that takes too long, each a failure of its own."""
     _, undisturbed = campaign(tmp_path / "here", Here(), jobs(40))
     report, found = campaign(tmp_path / "dask", DaskCrew(*open_cluster("local", 2, {})), jobs(40))
     assert report.standing.produced == 40
     assert found.equals(undisturbed)
     assert keys_in_parts(tmp_path / "dask") == (40, 40)
+
+
+@pytest.mark.parametrize(
+    ("trouble", "words"),
+    [
+        ("raise", "ArithmeticError: 3 cannot be raised"),
+        pytest.param("die", "the Dask worker of this run was lost", marks=pytest.mark.long),
+    ],
+)
+def test_a_run_that_fails_or_kills_its_dask_worker_is_a_failure_of_its_own(tmp_path, trouble, words):
+    report, _ = campaign(tmp_path, DaskCrew(*open_cluster("local", 2, {})), jobs(10, trouble=trouble))
+    assert (report.standing.done, report.standing.failed) == (8, 2)
+    assert all(words in run.failure for run in report.failures)
 
 
 def test_a_time_limit_holds_on_dask_too(tmp_path):

@@ -1,12 +1,13 @@
 """A design is checked before anything starts; what is wrong is named with file, key and value."""
 
+import numpy as np
 import pytest
 
 from formicarium.campaigns.cells import cells_of
 from formicarium.campaigns.design import make_design
 from formicarium.campaigns.design_file import read_content
 from formicarium.campaigns.errors import DesignError
-from formicarium.campaigns.seeds import derived_seed
+from formicarium.campaigns.seeds import derived_seeds
 
 PLAIN = {"name": "study", "system": "walk", "replicates": 3}
 
@@ -40,13 +41,13 @@ def test_derived_seeds_depend_on_study_cell_and_replicate_only():
     for factors, seeds in before.items():
         assert after[factors][:3] == seeds
     assert cells(name="other")[0].seeds != cells()[0].seeds
-    assert derived_seed("study", {"a": 1}, 0) == derived_seed("study", {"a": 1.0}, 0)
-    assert derived_seed("study", {"a": 1, "b": 2}, 0) == derived_seed("study", {"b": 2, "a": 1}, 0)
+    assert derived_seeds("study", {"a": 1}, 3) == derived_seeds("study", {"a": 1.0}, 3)
+    assert derived_seeds("study", {"a": 1, "b": 2}, 3) == derived_seeds("study", {"b": 2, "a": 1}, 3)
 
 
 def test_a_derived_seed_never_changes():
     """Seeds are part of published results; this one was computed once."""
-    assert derived_seed("study", {"a": 1}, 0) == 927883948533941
+    assert derived_seeds("study", {"a": 1}, 1) == (927883948533941,)
 
 
 def test_a_first_seed_counts_on_and_a_row_may_have_its_own():
@@ -79,7 +80,8 @@ def test_listed_seeds_are_used_as_they_are():
         ({"seeds": [1, 2, 3], "first_seed": 1}, ["exclude each other"]),
         ({"first_seed": 2**63 - 2}, ["first_seed", "above 2^63"]),
         ({"factors": {"a": []}}, ["factors.a = []"]),
-        ({"factors": {"a": 3}}, ["factors.a = 3"]),
+        ({"factors": {"a": 3}}, ["factors.a = 3: must be a list"]),
+        ({"factors": 3}, ["factors = 3: must be a table"]),
         ({"factors": {"a": [{"b": 1}]}}, ["factors.a[0]", "must be a number, a text"]),
         ({"factors": {"a": [float("nan")]}}, ["factors.a[0] = NaN"]),
         ({"rows": []}, ["'rows' is an empty table"]),
@@ -117,6 +119,13 @@ def test_all_kinds_of_files_say_the_same(tmp_path):
         (tmp_path / f"study.{kind}").write_text(text)
     found = [read_content(tmp_path / f"study.{kind}") for kind in TEXTS]
     assert found[0] == found[1] == found[2]
+
+
+def test_python_may_say_ranges_tuples_and_arrays():
+    found = cells(seeds=range(1, 4), factors={"a": np.linspace(1, 2, 3), "b": (np.int64(4), np.bool_(True))})
+    assert [cell.factors for cell in found[:3]] == [{"a": 1.0, "b": 4}, {"a": 1.0, "b": True}, {"a": 1.5, "b": 4}]
+    assert {type(cell.factors["b"]) for cell in found} == {int, bool}
+    assert found[0].seeds == (1, 2, 3)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import pytest
 
+from formicarium.campaigns import claims, lock
 from formicarium.campaigns.files import StoreError, read_json, replacing, write_json
 
 
@@ -33,3 +34,14 @@ def test_a_damaged_json_file_is_named(tmp_path, text):
     path.write_text(text)
     with pytest.raises(StoreError, match=r"configuration\.json is damaged"):
         read_json(path)
+
+
+def test_counting_who_is_at_work_touches_nothing(tmp_path):
+    with claims.register(tmp_path, "alive"):
+        (tmp_path / "dead.lock").touch(mode=0o444)
+        before = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+        assert claims.writers(tmp_path) == 1
+        assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == before
+    assert claims.writers(tmp_path) == 0
+    assert not lock.is_held(tmp_path / "gone.lock")
+    assert not (tmp_path / "gone.lock").exists()

@@ -10,7 +10,9 @@ from pathlib import Path
 import pyarrow.csv
 import pyarrow.parquet as pq
 import pytest
+from pydantic import create_model
 
+import random_walk
 from formicarium.campaigns import table
 from formicarium.commands import work
 from formicarium.commands.main import exit_code
@@ -67,6 +69,15 @@ def test_a_campaign_from_plan_to_table(tmp_path, capsys):
     assert json.loads((tmp_path / "here" / "campaign.json").read_text())["design"]["name"] == "walk"
 
 
+def test_a_factor_may_be_a_list(tmp_path):
+    (tmp_path / "study.toml").write_text(DESIGN.replace('"booth.dwell_time" = [1, 2.5]', "lamps = [[1, 2], [3]]"))
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    assert [row["lamps"] for row in rows()] == (["[1, 2]"] * 3 + ["[3]"] * 3) * 2
+    assert pyarrow.csv.read_csv("here/cells.csv")["lamps"].to_pylist() == ["[1, 2]", "[3]"] * 2
+    assert exit_code(["campaign", "compare", "here", "here", "--a", "lamps=[1, 2]", "--b", "lamps=[3]"]) == 0
+
+
 def test_more_runs_only_add(capsys):
     campaign("run", "--workers", 1)
     campaign("collect")
@@ -96,7 +107,7 @@ def test_a_failing_run_is_recorded_and_run_again_on_request(tmp_path, capsys):
     assert campaign("run", "--workers", 1) == 1
     assert "0 now" in capsys.readouterr().out
     assert campaign("run", "--workers", 1, "--retry") == 1
-    assert "the run with seed 2 failed" in capsys.readouterr().err
+    assert "failed: cell 0 (booth.dwell_time = 1), seed 2\n" in capsys.readouterr().err
     assert campaign("collect") == 1
     assert [row["seed"] for row in rows()] == [1, 3, 1, 3]
 
@@ -123,7 +134,10 @@ def test_events_are_kept_if_the_design_says_so(tmp_path):
         (("robots = [5, 9]", "robbots = [5, 9]"), ["study.toml: factors.robbots", "Did you mean", "robots"]),
         (("robots = [5, 9]", "robots = [5, 900]"), ["study.toml: cell 2 (robots = 900", "less than or equal to 200"]),
         (("robots = [5, 9]", 'robots = [5, "nine"]'), ["cell 2 (robots = nine", "robots = 'nine': must be a whole"]),
-        (("robots = [5, 9]", "robots = [5, 5]"), ["cells 0 (robots = 5", "and 2 (robots = 5", "are the same runs"]),
+        (
+            ("robots = [5, 9]", "robots = [5, 5]"),
+            ["study.toml: cells 0 (robots = 5", "and 2 (robots = 5", "are the same runs"],
+        ),
         (("[1, 2.5]", '[1, "far"]'), ['booth.dwell_time = "far"', "valid number", "0 to 60 s"]),
         (("[1, 2.5]", "[1, true]"), ["booth.dwell_time = true", "valid number"]),
         (("[1, 2.5]", "[1, 99]"), ["booth.dwell_time = 99", "less than or equal to 60"]),
@@ -161,13 +175,13 @@ def test_a_wrong_option_is_refused_before_anything_starts(tmp_path, capsys, argu
 
 
 def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
     assert campaign("run", "--workers", 1, "--runs", 2) == 1  # the workers find other sources and say so
     assert "the sources were edited" in capsys.readouterr().err
     monkeypatch.undo()
     monkeypatch.chdir(tmp_path)
     assert campaign("run", "--workers", 2) == 0
-    monkeypatch.setattr(work, "_sources", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
     assert campaign("status") == 1
     said = capsys.readouterr().out
     assert "0 of 12 runs done, 0 failed, 12 missing" in said
@@ -183,6 +197,55 @@ def test_rows_of_other_sources_do_not_count_are_told_and_can_be_cleaned_up(tmp_p
     assert campaign("status") == 1
     assert "other sources" not in capsys.readouterr().out.split("removed")[-1]
     assert not list((tmp_path / "here" / "parts").iterdir())
+
+
+def test_rows_of_sources_with_fewer_parameters_are_still_read(tmp_path, capsys, monkeypatch):
+    """New sources bring new parameters and other defaults; what the design says is the same."""
+    assert campaign("run", "--workers", 1, "--set", "duration=300") == 0
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    before = rows()
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(random_walk, "RANDOM_WALK", later_walk())
+    capsys.readouterr()
+    assert campaign("collect") == 2
+    said = capsys.readouterr().err
+    own = before[0]["sources"]
+    assert f"12 rows made by other sources (--sources {own})" in said
+    assert f"12 rows of other parameters, made by other sources ({own})" in said
+    assert campaign("status") == 1
+    assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()[1:6]] == ["outdated", *"3333"]
+    assert campaign("collect", "--sources", own) == 0
+    assert rows() == before
+    assert campaign("collect", "--sources", own, "--set", "duration=300") == 0
+    assert {row["duration_s"] for row in rows()} == {300.0}
+
+
+def test_cells_that_differ_in_seeds_only_are_still_read(tmp_path, monkeypatch):
+    rows_of_seeds = "".join(f"[[rows]]\nrobots = 5\nfirst_seed = {seed}\n" for seed in (1, 100))
+    (tmp_path / "study.toml").write_text(f'name = "walk"\nsystem = "{WALK}"\nreplicates = 2\n{rows_of_seeds}')
+    assert campaign("run", "--workers", 1) == 0
+    assert campaign("collect") == 0
+    before = rows()
+    assert [(row["cell"], row["seed"]) for row in before] == [(0, 1), (0, 2), (1, 100), (1, 101)]
+    monkeypatch.setattr(work, "sources_of", lambda system: "0123456789abcdef")
+    monkeypatch.setattr(random_walk, "RANDOM_WALK", later_walk())
+    assert campaign("collect", "--sources", before[0]["sources"]) == 0
+    assert rows() == before
+
+
+def later_walk():
+    """Return the system as other sources have it: with one parameter more, and another default."""
+    trial = create_model("Trials", __base__=random_walk.Trials, patience=(float, 5.0))
+    booth = create_model("Booth", __base__=random_walk.Booth, speed=(float, 2.0))
+    parameters = create_model(
+        "Parameters", __base__=random_walk.Parameters, trial=(trial, trial()), booth=(booth, booth())
+    )
+
+    def configure(setting=None, robots=None):
+        return parameters(swarm=random_walk.configure(setting, robots).swarm)
+
+    return random_walk.RANDOM_WALK._replace(parameters=parameters, configure=configure)
 
 
 def collected(folder, text):
@@ -242,9 +305,18 @@ def stand_in_sbatch(script):
     assert [task.wait(timeout=60) for task in tasks] == [0] * len(tasks)
 
 
+def test_a_task_of_an_array_tries_only_its_own_failures_again(tmp_path, capsys):
+    """What another task has seen fail meanwhile stays a failure."""
+    (tmp_path / "study.toml").write_text(f'name = "s"\nsystem = "{WALK}"\nseeds = [1, 2]\nset = {{ failing_seed = 1 }}')
+    assert campaign("run", "--share", "0/2") == 1
+    assert campaign("run", "--share", "1/2", "--retry") == 0
+    assert campaign("status") == 1
+    assert "1 of 2 runs done, 1 failed, 0 missing" in capsys.readouterr().out
+
+
 @pytest.mark.long  # the guide's test does nearly the same
 def test_one_process_two_dask_and_a_slurm_array_give_the_same_bytes(tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(TESTS))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")]))
     found = {}
     ways = {
         "one": ["--workers", 1],
@@ -307,8 +379,9 @@ def test_runs_of_other_folders_are_taken_over(tmp_path, capsys):
     assert "0 now" in capsys.readouterr().out
     campaign("collect")
     assert (tmp_path / "here" / "runs.parquet").read_bytes() == undisturbed
-    assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "here"]) == 2
+    assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "new"]) == 2
     assert "holds no results" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):

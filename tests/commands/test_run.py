@@ -108,7 +108,7 @@ def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, capsys, workers
     ("arguments", "words"),
     [
         (["run", "random_wak"], ["unknown system 'random_wak'", "registered systems"]),
-        (["run", "mark-13"], ["unknown system 'mark-13'", "Did you mean mark-i3?"]),
+        (["run", "mark-13"], ["unknown system 'mark-13'", "Did you mean mark-i3 or"]),
         (["run", "random_walk:NOTHING"], ["no system", "NOTHING"]),
         (["run", "no_such_module:NOTHING"], ["no system", "no_such_module"]),
         (["run", "random_walk:configure"], ["no system but a function"]),

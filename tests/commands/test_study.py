@@ -1,60 +1,125 @@
 """``formicarium study sequencing``: from its runs to its figures, and from what is there."""
 
 import csv
-import tomllib
-from importlib import resources
+from time import perf_counter
 
 import pytest
 
-from formicarium.commands import published
 from formicarium.commands.main import exit_code
-from formicarium.studies.cells import LEVELS, level_of
+from formicarium.commands.published import answers, store
+from formicarium.commands.published.store import NEEDS, TABLES, Asked, Part, needed, open_design
 
 
 @pytest.fixture(autouse=True)
-def short(monkeypatch):
-    """Twenty simulated seconds a run."""
-    original = published.Overrides
-    monkeypatch.setattr(
-        published, "Overrides", lambda runs, sources=None: original(runs, ("swarm.time_cap=20",), sources)
-    )
+def short(monkeypatch, tmp_path):
+    """Twenty simulated seconds a run, and as long without a runner."""
+    monkeypatch.setattr(store, "MORE", ("swarm.time_cap=20",))
+    monkeypatch.chdir(tmp_path)
 
 
 def study(*arguments):
     return exit_code(["study", "sequencing", "--out", "here", *arguments])
 
 
-def test_the_design_is_table_1():
-    text = resources.files("formicarium.systems.sequencing.published").joinpath("mark-i3-table-1.toml").read_text()
-    rows = tomllib.loads(text)["rows"]
-    assert [row["first_seed"] for row in rows] == [81001 + 100 * k for k in range(40)]
-    assert [level_of(row["setting"], row["robots"]) for row in rows] == list(LEVELS) * 5
+@pytest.mark.parametrize(
+    ("figure", "runs"), [("4", 120), ("5", 2400), ("7", 2400), ("S18", 150), ("S19", 60), ("all", 4830)]
+)
+def test_a_figure_runs_only_the_cells_that_it_shows(figure, runs, tmp_path):
+    asked = Asked(figure, tmp_path)
+    assert sum(needed(part, asked).total for part in NEEDS[figure]) == runs
 
 
-def test_figure_4_is_run_and_drawn_and_loaded_again(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert study("--figure", "4", "--collect-only") == 2
+def test_settings_can_be_run_one_by_one(tmp_path):
+    part = Part(TABLES["mark-ii4"])
+    assert needed(part, Asked("7", tmp_path, runs=10, settings=(3, 4))).total == 160
+    assert len({job.cell.factors["setting"] for job in needed(part, Asked("7", tmp_path, settings=(3,))).jobs}) == 1
+
+
+def test_figure_s19_is_run_and_drawn_and_loaded_again(tmp_path, capsys):
+    assert study("--figure", "S19", "--collect-only") == 2
     assert "no run of this study" in capsys.readouterr().err
-    assert study("--figure", "4", "--runs", "2", "--workers", "1") == 0
-    assert "drawn from 2 of 2 runs" in capsys.readouterr().out
-    picture = (tmp_path / "here" / "figure-4.png").read_bytes()
-    assert study("--figure", "4", "--runs", "2", "--workers", "1") == 0
+    once = ("--figure", "S19", "--runs", "2", "--workers", "1")
+    assert study(*once) == 0
+    assert "drawn from 4 of 4 runs" in capsys.readouterr().out
+    picture = (tmp_path / "here" / "figure-s19.png").read_bytes()
+    assert study(*once) == 0
     assert "2 of them loaded" in capsys.readouterr().out
-    assert (tmp_path / "here" / "figure-4.png").read_bytes() == picture
-    assert study("--figure", "4", "--collect-only") == 1  # 28 of the paper's 30 are missing
-    assert study("--figure", "4", "--sources", "0123456789abcdef") == 2
+    assert (tmp_path / "here" / "figure-s19.png").read_bytes() == picture
+    assert study("--figure", "S19", "--collect-only") == 1  # 56 of the paper's 60 are missing
+    assert study("--figure", "S19", "--sources", "0123456789abcdef") == 2
+    own = open_design("mark-ii3-table-1", Asked("S19", tmp_path)).jobs[0].configuration.sources
+    several = ("--sources", "0123456789abcdef", "--sources", own)
+    capsys.readouterr()
+    assert study("--figure", "S19", "--runs", "2", *several) == 0
+    assert "drawn from 4 of 4 runs" in capsys.readouterr().out
 
 
-def test_an_unfinished_table_1_is_drawn_as_far_as_it_goes(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    designs = published._open("mark-i3-table-1", tmp_path / "here", published.Overrides(1))
-    assert published.perform(designs._replace(jobs=designs.jobs[:3]), published.Request(workers=1)) == 0
+def test_an_unfinished_study_is_drawn_as_far_as_it_goes(tmp_path, capsys):
+    design = open_design("mark-i3-table-1", Asked("all", tmp_path / "here", runs=1))
+    assert answers.perform(design._replace(jobs=design.jobs[:3]), answers.Request(workers=1)) == 0
     assert study("--collect-only") == 1
-    assert "drawn from 3 of 1230 runs" in capsys.readouterr().out
+    assert "drawn from 3 of 4830 runs" in capsys.readouterr().out
     names = {path.name for path in (tmp_path / "here").iterdir() if path.is_file()}
-    assert names == {"figure-4.png", "figure-5a.png", "figure-s18.png", "cells.csv", "report.md"}
+    numbers = ("3", "4", "5a", "5b", "6", "7a", "7b", "s15", "s17", "s18", "s19")  # Fig. 2 shows runs of its own
+    figures = {f"figure-{number}.png" for number in numbers}
+    assert names == {*figures, "cells.csv", "table-s3.csv", "report.md", "report.html"}
     with (tmp_path / "here" / "cells.csv").open() as file:
-        assert [row["runs"] for row in csv.DictReader(file)] == ["1"] * 3 + ["0"] * 37
-    report = (tmp_path / "here" / "report.md").read_text()
-    assert "3 runs in 3 of 40 cells" in report
-    assert report.count(": not testable.**") == 6
+        rows = list(csv.DictReader(file))
+    assert [row["runs"] for row in rows] == ["1"] * 3 + ["0"] * 157
+    text = (tmp_path / "here" / "report.md").read_text()
+    assert "| Mark I3 | 3 | 3 of 40 | 0 |" in text
+    assert text.count("| too few runs yet |") == 39
+    assert "3 of 1200 listed runs (3 of them failures)" in text
+
+
+def test_one_run_in_so_many_is_done_again(tmp_path, capsys):
+    """With every run in the sample: the rows come out again, doubled noise changes them, members are counted anew."""
+    assert study("--figure", "S19", "--runs", "2", "--workers", "1", "--check", "1") == 0
+    text = (tmp_path / "here" / "report.md").read_text()
+    for name in ("Mark II3", "Mark II4"):
+        assert f"| T23 {name} | doubled noise changes the result | 0 of 2 rows stayed the same | passed |" in text
+        assert "2 of 2 rows the same, times of 2 recomputed from the log | passed |" in text
+        assert "by the log 2 of 2 runs done again | passed |" in text
+    assert study("--figure", "S19", "--runs", "2", "--check", "0") == 2
+    assert "--check 0: must be at least 1" in capsys.readouterr().err
+
+
+def test_a_run_that_was_ended_early_is_run_on_to_the_cap(tmp_path, monkeypatch):
+    """Four robots, all of which join the chain: nobody is left after two minutes or so."""
+    few = ("swarm.robots=4", "swarm.time_cap=600")
+    monkeypatch.setattr(store, "MORE", (*few, "swarm.idle_limit=30"))
+    asked = Asked("all", tmp_path / "here", runs=1)
+    design = open_design("mark-ii3-table-1", asked)
+    first = design._replace(jobs=design.jobs[:1])
+    assert answers.perform(first, answers.Request(workers=1)) == 0
+    (row,) = store.tidy_rows(first)
+    assert (row["hopeless_s"] < 600.0, row["duration_s"], row["success"]) == (True, 600.0, 0)
+    monkeypatch.setattr(store, "MORE", few)
+    assert answers.checks.run_checks([first], 1, 1) == 0
+    found = answers.checks.stored(first, store.cells_of(first), None)
+    assert [run["hopeless_s"] is None for run in found.control] == [True]
+    assert [run["duration_s"] for run in found.control] == [600.0]
+
+
+def test_figures_are_drawn_from_tables_alone(tmp_path):
+    assert study("--figure", "S19", "--runs", "2", "--workers", "1") == 0
+    tables = str(tmp_path / "here" / "tables")
+    assert exit_code(["study", "sequencing", "--figure", "S19", "--out", "there", "--from-tables", tables]) == 1
+    for name in ("tables/mark_ii3_table_1.csv", "tables/mark_ii4_table_1.csv", "cells.csv", "figure-s19.png"):
+        assert (tmp_path / "there" / name).read_bytes() == (tmp_path / "here" / name).read_bytes()
+
+
+def test_snapshots_arenas_and_trees_need_no_study(tmp_path):
+    assert study("--figure", "2", "--collect-only") == 2
+    for figure in ("2", "3", "6", "S15", "S17"):
+        assert study("--figure", figure, "--workers", "1") == 0
+        assert (tmp_path / "here" / f"figure-{figure.lower()}.png").exists()
+
+
+@pytest.mark.long
+def test_a_new_user_makes_figure_4_in_ten_minutes(monkeypatch):
+    """Five runs a panel at the paper's caps, with one worker; hopeless runs are ended."""
+    monkeypatch.setattr(store, "MORE", ())
+    begun = perf_counter()
+    assert study("--figure", "4", "--runs", "5", "--workers", "1") == 0
+    assert perf_counter() - begun < 600.0

@@ -2,6 +2,7 @@
 
 import math
 import pickle
+from functools import partial
 
 import pytest
 
@@ -34,3 +35,5 @@ def test_a_system_of_a_reader_has_its_own_sources_in_its_identity():
     own = configuration_of(random_walk.RANDOM_WALK, PARAMETERS)
     inside = configuration_of(random_walk.RANDOM_WALK._replace(run=configuration_of), PARAMETERS)
     assert own.sources != inside.sources
+    part = configuration_of(random_walk.RANDOM_WALK._replace(run=partial(random_walk.run, watch=None)), PARAMETERS)
+    assert own.sources == part.sources

@@ -10,10 +10,13 @@ from formicarium.commands.work import configuration_of, function_of
 from formicarium.trial.simulate import simulate
 
 ROBOTS = 12  # enough to push, talk and take roles, few enough to be quick
+LONGEST = 2400.0  # s, and most trials are not so long either
 
 
 def small(system):
-    return system.configure(robots=ROBOTS)
+    parameters = system.configure(robots=ROBOTS)
+    swarm = parameters.swarm.model_copy(update={"time_cap": min(parameters.swarm.time_cap, LONGEST)})
+    return parameters.model_copy(update={"swarm": swarm})
 
 
 def bytes_of(trial):

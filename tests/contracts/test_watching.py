@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from formicarium.trial.simulate import simulate
 from formicarium.trial.watching import Impossible
 from formicarium.views.live.checking import Checks
 from formicarium.views.live.session import Session
@@ -25,8 +26,11 @@ def bytes_of(session):
 
 
 def test_a_watched_trial_gives_the_same_bytes(system, parameters):
-    alone = system.run(parameters, 5)
+    alone = system.begin(parameters, 5)
+    alone.clock[0].last_cycle = CYCLES
+    events = simulate(system.advance, alone)
     session = Session(system, parameters, 5)
+    session.state.clock[0].last_cycle = session.last_cycle = CYCLES
     draws = np.random.default_rng(1)
     while not session.finished:
         session.advance(int(draws.integers(1, 700)))
@@ -40,8 +44,8 @@ def test_a_watched_trial_gives_the_same_bytes(system, parameters):
             session.seek(int(draws.integers(0, session.frontier + 1)))
             session.seek(here)
     session.seek(session.frontier)
-    assert session.events.tobytes() == alone.events.tobytes()
-    assert dict(session.outcome()) == dict(alone.outcome)
+    assert session.events.tobytes() == events.tobytes() and digest(session.state) == digest(alone)
+    assert dict(session.outcome()) == dict(system.watching.outcome(parameters, alone, events))
     assert all(system.watching.tell(event) for event in session.events)
 
 

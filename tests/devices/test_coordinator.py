@@ -7,7 +7,7 @@ import pytest
 
 from formicarium.devices.coordinator import COORDINATOR, judge
 from formicarium.physics.records import records
-from formicarium.robots.infrared import FAILURE, SUCCESS
+from formicarium.robots.infrared import FAILURE, NOTED, SUCCESS
 
 A, B, C = 3, 1, 2  # the correct order: blue, red, green
 ROBOT = 17
@@ -85,3 +85,39 @@ def test_any_story_is_judged_as_a_slow_clerk_would():
         book[robot] = [*done, task] if right and len(done) < 2 else []
         assert judge(record, robot, claim, task) == (SUCCESS if right else FAILURE)
         assert record.faults == faults
+
+
+# Delayed feedback: name: [(claim, task, byte, faults so far)]
+LATE = {
+    "the sequence, twice": [(1, A, NOTED, 0), (2, B, NOTED, 0), (3, C, SUCCESS, 0)] * 2,
+    "a wrong first task": [(1, B, NOTED, 0), (2, A, NOTED, 0), (3, C, FAILURE, 0), (1, A, NOTED, 0)],
+    "a wrong last task": [(1, A, NOTED, 0), (2, B, NOTED, 0), (3, B, FAILURE, 0)],
+    "a right one after a wrong one": [(1, B, NOTED, 0), (2, C, NOTED, 0), (3, A, FAILURE, 0)]
+    + [(1, A, NOTED, 0), (2, B, NOTED, 0), (3, C, SUCCESS, 0)],
+    "a new start on the way": [(1, B, NOTED, 0), (1, A, NOTED, 0), (2, B, NOTED, 0), (3, C, SUCCESS, 0)],
+    "a claim that is not the record's": [(1, A, NOTED, 0), (3, C, FAILURE, 1), (2, B, FAILURE, 2), (1, A, NOTED, 2)],
+}
+
+
+@pytest.mark.parametrize("story", LATE)
+def test_delayed_feedback_is_a_verdict_on_the_whole_sequence(story):
+    """TS-28, TS-30."""
+    record = coordinator()
+    record.delayed = 1
+    for claim, task, byte, faults in LATE[story]:
+        assert judge(record, ROBOT, claim, task) == byte
+        assert record.faults == faults
+
+
+@pytest.mark.parametrize("order", list(itertools.product((A, B, C), repeat=3)))
+def test_delayed_feedback_does_not_tell_where_a_sequence_went_wrong(order):
+    record = coordinator()
+    record.delayed = 1
+    bytes_heard = [judge(record, ROBOT, claim, task) for claim, task in enumerate(order, 1)]
+    assert bytes_heard == [NOTED, NOTED, SUCCESS if order == (A, B, C) else FAILURE]
+
+
+def test_a_booth_that_is_always_negative_is_so_at_the_end_of_the_sequence():
+    record = coordinator(always_negative=B)
+    record.delayed = 1
+    assert [judge(record, ROBOT, n, task) for n, task in enumerate((A, B, C), 1)] == [NOTED, NOTED, FAILURE]

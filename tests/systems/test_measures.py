@@ -61,6 +61,35 @@ def test_a_failed_trial_has_a_named_cause(fields, events, name):
     assert cause(ROW | fields, log(*events), 20, 3, CYCLE) == name
 
 
+LOOP = ROW | {
+    **{"time_elected_s": 310.0, "time_solved_s": 900.0, "upi_found": 2, "upi_correct": 2, "steps_behind": 0},
+    **{"runners": 5, "runners_inside": 1, "branches": 3, "tails": 0, "members": 20},
+}
+OPEN = {"time_chain_s": None, "time_elected_s": None, "time_solved_s": None}
+
+
+@pytest.mark.parametrize(
+    ("fields", "events", "name"),
+    [
+        ({"guardians": 2, "branches": 0} | OPEN, [], "a task found no guardian"),
+        ({"members": 25, "branches": 2} | OPEN, [], "all robots in an unfinished chain"),
+        ({"branches": 1, "tails": 2} | OPEN, [], "2 of 3 branches missed their guardian"),
+        ({"branches": 1, "tails": 1} | OPEN, [], "a branch lost its tail"),
+        (OPEN, [], "the loop did not close"),
+        ({"time_elected_s": None, "time_solved_s": None}, [], "no election"),
+        ({"upi_found": 3}, [], "a wrong order taken for right"),
+        ({"steps_behind": 1}, [], "news did not get round the loop"),
+        ({"runners_inside": 5}, [], "all free robots inside the loop"),
+        ({"members": 25}, [], "all robots in the finished chain"),
+        ({}, [(2400.0 - STALLED + 1, EventKind.STEP, 7, 1, 4)], "too slow"),
+        ({}, [(600.0, EventKind.STEP, 7, 1, 4), moved(700.0, Role.LINK)], "link displaced"),
+        ({}, [], "runners stuck"),
+    ],
+)
+def test_a_failed_trial_of_mark_ii_has_a_named_cause(fields, events, name):
+    assert cause(LOOP | fields, log(*events), 25, 3, CYCLE) == name
+
+
 def finished(robots=20, **roles):
     """Return the state of a trial at its end, with so many guardians, links and tails."""
     state = begin(mark_i3_parameters(robots=robots), 1)
@@ -198,3 +227,26 @@ def test_the_condition_of_a_guardian_is_logged_whenever_it_changes(trial):
         assert before is None or (before[1] == 0 and now != before)
         last[who] = now
     assert len(last) >= 3
+
+
+def test_a_trial_without_runners_is_ended_and_counts_as_run_to_its_cap():
+    """TS-145, T25: twelve robots are too few, all join the chain; run on to the cap, nothing else comes of it."""
+    early, whole = (
+        MARK_I3.run(mark_i3_parameters(robots=12, swarm={"idle_limit": limit}), 5001) for limit in (100.0, 0.0)
+    )
+    ended, row = early.events[-1], early.outcome
+    assert ended["kind"] == EventKind.HOPELESS
+    assert row["hopeless_s"] == pytest.approx((ended["cycle"] + 1) * CYCLE)
+    assert whole.outcome["hopeless_s"] is None
+    assert row["duration_s"] == whole.outcome["duration_s"] == 2400.0
+    roles = early.events[early.events["kind"] == EventKind.ROLE]
+    last_runner = roles[roles["detail"] == Role.RUNNER]["cycle"][-1]
+    assert ended["cycle"] - last_runner + 1 == round(100.0 / CYCLE)
+    for name in ("success", "sequences", "time_chain_s", "time_1_s", "members", "cause"):
+        assert row[name] == whole.outcome[name]
+
+
+def test_a_trial_with_a_runner_left_is_not_ended():
+    same = MARK_I3.run(mark_i3_parameters(swarm={"idle_limit": 0.1}), 5002)
+    assert same.outcome["hopeless_s"] is None
+    assert same.outcome["success"] == 1

@@ -8,8 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from formicarium.systems.sequencing.parameters import BehaviourTable, mark_i3_parameters
-from formicarium.systems.sequencing.study import MARK_I3, published_run_times
+from formicarium.systems.sequencing.parameters import (
+    BehaviourTable,
+    mark_i3_parameters,
+    mark_i4_parameters,
+    mark_ii3_parameters,
+    mark_ii4_parameters,
+)
+from formicarium.systems.sequencing.study import MARK_I3, MARK_I4, MARK_II3, MARK_II4, published_run_times
 
 SHARED = Path(__file__).parents[3] / "shared" / "data"
 
@@ -22,19 +28,30 @@ def shared_rows(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def table_1() -> list[dict[str, str]]:
+def table_1(variant: str) -> list[dict[str, str]]:
     rows = shared_rows("ts_swarm_table1.csv")
-    return [row for row in rows if row["variant"] == "Mark I3" and row["level"] == "default"]
+    return [row for row in rows if row["variant"] == variant and row["level"] == "default"]
+
+
+VARIANTS = {
+    "Mark I3": mark_i3_parameters,
+    "Mark I4": mark_i4_parameters,
+    "Mark II3": mark_ii3_parameters,
+    "Mark II4": mark_ii4_parameters,
+}
 
 
 @pytest.mark.parametrize("setting", range(5))
-def test_a_setting_is_the_papers_row(setting):
-    row = next(row for row in table_1() if int(row["setting"]) == setting)
-    p = mark_i3_parameters(setting)
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_a_setting_is_the_papers_row(variant, setting):
+    row = next(row for row in table_1(variant) if int(row["setting"]) == setting)
+    p = VARIANTS[variant](setting)
     assert p.swarm.robots == int(row["n_robots"])
     assert p.swarm.time_cap == float(row["time_cap_s"])
     assert p.arena.side == pytest.approx(float(row["side_m"]), abs=0.005)
-    assert 1.5 * math.sqrt(3.0) * p.arena.side**2 == pytest.approx(float(row["area_m2"]), abs=0.011)
+    sides = p.arena.sides
+    area = 0.25 * sides * p.arena.side**2 / math.tan(math.pi / sides)
+    assert area == pytest.approx(float(row["area_m2"]), abs=0.022)  # C1: the octagons' areas are the hexagons'
 
 
 def test_each_setting_doubles_the_area():
@@ -57,10 +74,25 @@ def test_the_controller_is_the_same_in_every_setting():
         )
 
 
-def test_four_tasks_differ_in_the_controller_by_the_number_of_tasks_alone():
-    """TS-3."""
-    four = mark_i3_parameters(arena={"tasks": 4, "sides": 8, "side": 0.66}, behaviour={"tasks": 4})
-    assert four.behaviour.model_dump() == mark_i3_parameters().behaviour.model_dump() | {"tasks": 4}
+@pytest.mark.parametrize(("three", "four"), [("Mark I3", "Mark I4"), ("Mark II3", "Mark II4")])
+def test_four_tasks_differ_in_the_controller_by_the_number_of_tasks_alone(three, four):
+    """TS-3, T20: and the machine code is the same, as the system's loop is."""
+    one, other = VARIANTS[three](), VARIANTS[four]()
+    assert other.behaviour.model_dump() == one.behaviour.model_dump() | {"tasks": 4}
+    assert (other.epuck, other.booth, other.physics) == (one.epuck, one.booth, one.physics)
+    assert MARK_I3.advance is MARK_I4.advance is MARK_II3.advance is MARK_II4.advance
+
+
+def test_the_marks_differ_by_their_name_and_the_feedback_alone():
+    one, other = mark_i3_parameters(), mark_ii3_parameters()
+    assert other.behaviour.model_dump() == one.behaviour.model_dump() | {"mark": 2}
+    assert other.booth.model_dump() == one.booth.model_dump() | {"delayed_feedback": True}
+    assert (other.epuck, other.physics, other.arena) == (one.epuck, one.physics, one.arena)
+
+
+def test_robots_that_expect_another_feedback_than_the_booths_give_are_refused():
+    with pytest.raises(ValueError, match="delayed_feedback"):
+        mark_i3_parameters(behaviour={"mark": 2})
 
 
 def test_robots_that_count_differently_than_there_are_booths_are_refused():

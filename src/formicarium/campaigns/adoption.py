@@ -28,13 +28,21 @@ class Adopted(NamedTuple):
     other: int  # rows that belong to no run of the design: other parameters, seeds or sources
 
 
-def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, keep: Sequence[str] = ()) -> Adopted:
-    """Take over the rows of a folder that the jobs want, with the tables that they keep.
+def rows_in(folder: Path) -> pa.Table:
+    """Return the rows of a folder, in the form of a ledger.
 
     Raises:
-        StoreError: if the folder holds no results, a file in it is damaged, or a row contradicts one that is there.
+        StoreError: if it holds no results, or a file in it is damaged.
     """
-    rows = _rows_of_ledger(folder) if (folder / MANIFEST).exists() else _rows_of_set(folder)
+    return _rows_of_ledger(folder) if (folder / MANIFEST).exists() else _rows_of_set(folder)
+
+
+def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, keep: Sequence[str] = ()) -> Adopted:
+    """Take over those rows of a folder that the jobs want, with the tables that they keep.
+
+    Raises:
+        StoreError: if a row contradicts one that is there.
+    """
     wanted = {key: job for job in jobs for key in job.keys}
     keys = list(zip(rows["identity"].to_pylist(), rows["seed"].to_pylist()))
     ours = [place for place, key in enumerate(keys) if key in wanted]

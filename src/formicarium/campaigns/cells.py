@@ -22,6 +22,7 @@ class Cell(NamedTuple):
     number: int  # in the order of the design, from 0
     factors: Mapping[str, Any]
     seeds: tuple[int, ...]  # one a replicate
+    said: Mapping[str, Any]  # all that the design says of it: its factors, and what is the same in every cell
 
     @property
     def label(self) -> str:
@@ -61,7 +62,7 @@ def cells_of(design: Design) -> list[Cell]:
         assert first is None or isinstance(first, int)
         for values in itertools.product(*design.factors.values()):
             factors = {**own, **dict(zip(design.factors, values))}
-            cells.append(Cell(len(cells), factors, seeds_of(design, factors, first)))
+            cells.append(Cell(len(cells), factors, seeds_of(design, factors, first), {**design.fixed, **factors}))
     return cells
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from formicarium.campaigns.errors import DesignError
@@ -100,17 +101,25 @@ def make_design(content: Mapping[str, Any], source: str = "design") -> Design:
     """Check a design given as plain values.
 
     Args:
-        content: as a TOML file would hold it.
+        content: as a TOML file would hold it; from Python also ranges, tuples and arrays for lists.
         source: named in messages, for example the file.
 
     Raises:
         DesignError: with every key that is wrong, its value and the reason.
     """
     try:
-        return Design.model_validate(dict(content))
+        return Design.model_validate(_plain(content))
     except ValidationError as error:
         told = dict.fromkeys(_in_words(problem) for problem in error.errors())
         raise DesignError("\n".join(f"{source}: {line}" for line in told)) from error
+
+
+def _plain(content: Any) -> Any:
+    if isinstance(content, Mapping):
+        return {name: _plain(value) for name, value in content.items()}
+    if isinstance(content, list | tuple | range):
+        return [_plain(value) for value in content]
+    return content.tolist() if isinstance(content, np.ndarray | np.generic) else content
 
 
 def _in_words(problem: Any) -> str:
@@ -125,6 +134,9 @@ def _in_words(problem: Any) -> str:
         return f"{place}: is missing"
     if not place:
         return message
+    message = {"dict_type": "must be a table: names with values", "list_type": "must be a list"}.get(
+        problem["type"], message
+    )
     if _is_value(steps):
         message = "must be a number, a text, true or false, or a list of those"
     return f"{place} = {json.dumps(problem['input'], default=str)}: {message}"

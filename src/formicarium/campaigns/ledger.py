@@ -1,7 +1,7 @@
 """The store of a campaign: one row a run, for any number of configurations, writers and sittings.
 
     campaign.json                      format version, name, and the design as it was last run
-    configurations/<identity>.json     all parameters of a configuration, and its sources
+    configurations/<identity>.json     all parameters of a configuration, its sources, what the design said
     parts/<writer>-<number>.parquet    rows; a run is done when its row is in a part
     failures/<identity>-<seed>.json    traceback of a run that failed
     <table>/<identity>/seed-<seed>.parquet   tables of a run, if the design keeps them

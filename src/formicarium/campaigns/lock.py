@@ -46,6 +46,18 @@ def try_acquire(path: Path) -> IO[str] | None:
     return file
 
 
+def is_held(path: Path) -> bool:
+    """Tell whether a process holds the lock of a file; needs no right to write."""
+    try:
+        with path.open(encoding="utf-8") as file:
+            _lock(file, wait=False, shared=True)
+    except FileNotFoundError:
+        return False
+    except OSError:
+        return True
+    return False
+
+
 @contextmanager
 def held(path: Path) -> Iterator[None]:
     """Hold the lock of a file during the block; wait for it as long as it takes.
@@ -71,7 +83,7 @@ def held(path: Path) -> Iterator[None]:
 if sys.platform == "win32":
     import msvcrt
 
-    def _lock(file: IO[str], wait: bool) -> None:
+    def _lock(file: IO[str], wait: bool, shared: bool = False) -> None:
         while True:
             os.lseek(file.fileno(), 0, os.SEEK_SET)
             try:
@@ -84,5 +96,5 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-    def _lock(file: IO[str], wait: bool) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    def _lock(file: IO[str], wait: bool, shared: bool = False) -> None:
+        fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | (0 if wait else fcntl.LOCK_NB))

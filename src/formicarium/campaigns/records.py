@@ -31,14 +31,14 @@ def write_manifest(folder: Path, manifest: Mapping[str, Any]) -> None:
 
 
 def write_configuration(folder: Path, job: Job) -> list[str]:
-    """Note all parameters of a cell if they are not there yet; returns what a person should know."""
+    """Note the parameters of a cell and what the design said of it, once; returns what a person should know."""
     path, notes = folder / "configurations" / f"{job.configuration.identity}.json", []
     try:
         if path.exists() and read_json(path).get("identity") == job.configuration.identity:
             return []
     except StoreError:
         notes.append(set_aside(folder, path, "not readable", "it is written anew"))
-    write_json(path, job.configuration.content())
+    write_json(path, {**job.configuration.content(), "said": dict(job.cell.said)})
     return notes
 
 

@@ -23,18 +23,20 @@ def seeds_of(design: Design, factors: Mapping[str, Any], first_seed: int | None)
     first = design.first_seed if first_seed is None else first_seed
     if first is not None:
         return tuple(range(first, first + design.count))
-    return tuple(derived_seed(design.name, factors, replicate) for replicate in range(design.count))
+    return derived_seeds(design.name, factors, design.count)
 
 
-def derived_seed(study: str, factors: Mapping[str, Any], replicate: int) -> int:
-    """Return a seed that looks random and is always the same: 0 to 2^53 - 1."""
-    plain = {name: _plain(value) for name, value in factors.items()}
-    text = json.dumps([study, plain, replicate], sort_keys=True)
-    return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=8).digest()) >> (64 - BITS)
+def derived_seeds(study: str, factors: Mapping[str, Any], count: int) -> tuple[int, ...]:
+    """Return seeds that look random and are always the same, 0 to 2^53 - 1: hashes of ``[study, factors, k]``."""
+    start = json.dumps([study, plain(factors)], sort_keys=True).removesuffix("]")
+    texts = (f"{start}, {replicate}]".encode() for replicate in range(count))
+    return tuple(int.from_bytes(hashlib.blake2b(text, digest_size=8).digest()) >> (64 - BITS) for text in texts)
 
 
-def _plain(value: Any) -> Any:
-    # 1 and 1.0 are one value of a factor: TOML and YAML files may write either.
+def plain(value: Any) -> Any:
+    """Return a value, or what holds values, with 1 for 1.0: they are one value of a factor, files may say either."""
+    if isinstance(value, Mapping):
+        return {name: plain(inner) for name, inner in value.items()}
     if isinstance(value, list):
-        return [_plain(inner) for inner in value]
+        return [plain(inner) for inner in value]
     return int(value) if isinstance(value, float) and value.is_integer() else value

@@ -16,11 +16,14 @@ def from_rows(rows: Iterable[Row]) -> pa.Table:
     """Make a table of rows; columns in order of appearance, types wide enough for all rows."""
     rows = list(rows)
     names = list(dict.fromkeys(name for row in rows for name in row))
-    return pa.table({name: _column([row.get(name) for row in rows]) for name in names})
+    return pa.table({name: column_of([row.get(name) for row in rows]) for name in names})
 
 
-def _column(values: list[Any]) -> pa.Array:
+def column_of(values: list[Any]) -> pa.Array:
+    """Make a column of values: of one type that holds them all, of texts if there is none; lists are texts."""
     kinds = {type(value) for value in values if value is not None}
+    if list in kinds:
+        return as_text(values)
     try:
         if kinds and all(issubclass(kind, int | float) and kind is not bool for kind in kinds) and len(kinds) > 1:
             return pa.array(values, pa.float64())  # whole numbers among fractions

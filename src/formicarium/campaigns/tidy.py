@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.parts import OWN
+from formicarium.campaigns.table import column_of
 
 PLACE = ("cell", "replicate")  # columns that say where in the design a run is
 
@@ -43,7 +43,7 @@ def tidy(rows: pa.Table, jobs: Sequence[Job]) -> pa.Table:
             columns[name] = results.pop(name)
         else:
             taken = name in results or name in (*PLACE, *OWN)
-            columns[f"factor.{name}" if taken else name] = _column(values)
+            columns[f"factor.{name}" if taken else name] = column_of(values)
     columns["replicate"] = pa.array([replicate for _, _, replicate in places], pa.int64())
     columns["seed"] = found["seed"]
     columns |= results
@@ -56,12 +56,3 @@ def _places(rows: pa.Table, jobs: Sequence[Job]) -> list[tuple[int, int, int]]:
     keys = zip(rows["identity"].to_pylist(), rows["seed"].to_pylist())
     found = [(place, *wanted[key]) for place, key in enumerate(keys) if key in wanted]
     return sorted(found, key=lambda entry: entry[1:])
-
-
-def _column(values: list[Any]) -> pa.Array:
-    kinds = {type(value) for value in values if value is not None}
-    if kinds == {int, float}:
-        return pa.array(np.array([np.nan if value is None else value for value in values], float), from_pandas=True)
-    if len(kinds) > 1 or list in kinds:
-        return pa.array([None if value is None else str(value) for value in values])
-    return pa.array(values)

@@ -62,6 +62,7 @@ app.command(study)
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit."""
+    sys.path.append("")  # a reader's own system may be a file in this folder; last, so that it hides nothing
     sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
 
 

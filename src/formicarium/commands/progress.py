@@ -4,8 +4,14 @@ import contextlib
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.progress import Progress as Bars
+
+
+def bars(console: Console, *more: ProgressColumn) -> Bars:
+    """Return bars that are gone when the work is done: what, how far in words, the time."""
+    words = [TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[words]}"), TimeElapsedColumn()]
+    return Bars(SpinnerColumn(), *words, *more, console=console, transient=True, refresh_per_second=2)
 
 
 class Progress:
@@ -13,16 +19,7 @@ class Progress:
 
     def __init__(self, console: Console, name: str, runs: int):
         """Prepare the bars for a set of ``runs`` runs."""
-        self._bars = Bars(
-            SpinnerColumn(),
-            TextColumn("{task.description}"),
-            BarColumn(),
-            TextColumn("{task.fields[words]}"),
-            TimeElapsedColumn(),
-            TimeRemainingColumn(),
-            console=console,
-            transient=True,
-        )
+        self._bars = bars(console, TimeRemainingColumn())
         self._single = runs == 1
         self._set = self._bars.add_task(name, total=runs, words="starting", visible=not self._single)
         self._inside = self._bars.add_task(

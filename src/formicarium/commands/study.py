@@ -8,52 +8,73 @@ from cyclopts import Parameter
 from formicarium.commands.whole import Whole
 
 Switch = Annotated[bool, Parameter(negative="")]
+Several = Annotated[tuple[str, ...], Parameter(negative="")]
 
 
 def study(
     name: Literal["sequencing"],
     /,
     *,
-    figure: Literal["4", "5", "S18", "all"] = "all",
+    figure: Literal["2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all"] = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
+    setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),
     workers: Whole | None = None,
     collect_only: Switch = False,
-    sources: str | None = None,
+    check: Whole | None = None,
+    sources: Several = (),
+    from_tables: str | None = None,
 ) -> int:
     """Run a published study, or go on with it, and draw its figures beside the paper's numbers.
 
-    The runs are two campaigns inside the folder, mark-i3-figure-4b and
-    mark-i3-table-1; what is done is loaded. Beside them: the figures, cells.csv
-    (a row a cell) and report.md (what the paper says, tested). Exit code 0 if
-    every run of the study is there, 1 if not.
+    The runs are campaigns inside the folder, one for each variant's part of
+    Table 1; a figure runs only the cells that it shows, and what is done is
+    loaded. Beside them: the figures, report.md and report.html (what the paper
+    says, tested), cells.csv, table-s3.csv, and tables/ (a row a run). Exit code 0
+    if every run of the figure is there, 1 if not.
 
     Examples:
 
         formicarium study sequencing --figure 4 --runs 5
         formicarium study sequencing --out study
+        formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018, Mark I3).
+        The study: sequencing (Garattoni & Birattari 2018).
     figure
-        The paper's number of the figure; 5 is 5A.
+        The paper's number of the figure; 5 is 5A and 5B, 7 is 7A and 7B.
     out
-        Folder of the campaigns, figures, table and report.
+        Folder of the campaigns, figures, tables and report.
     runs
         Runs of each cell, instead of the paper's 30.
+    setting
+        Run the cells of this setting alone (several times: of these); figures and
+        report still show all that is there.
     workers
         Processes that share the runs; one a core if not given.
     collect_only
         Run nothing: draw from what is there, also while it is being run.
+    check
+        Run one in so many of the runs again, with its log, with doubled noise, and to
+        the cap where it was ended early; the report says what came of it.
     sources
-        Take the rows that these sources made (a hash, as in the rows); runs nothing.
+        Take the rows that these sources made (hashes, as in the rows; of several, for
+        each campaign the one with most rows); runs nothing.
+    from_tables
+        Draw from tables/ as an earlier study wrote them, for example from
+        docs/results/tables, instead of from campaigns; runs nothing.
     """
-    from formicarium.commands.published import draw_study, run_study
+    from formicarium.commands.errors import UserError
+    from formicarium.commands.published.answers import draw_study, run_study
+    from formicarium.commands.published.store import Asked
 
-    code = 0
-    if not collect_only and sources is None:
-        code = run_study(figure, Path(out), runs, workers)
-    return max(code, draw_study(figure, Path(out), runs, sources))
+    if check is not None and check < 1:
+        raise UserError(f"--check {check}: must be at least 1")
+    tables = Path(from_tables) if from_tables is not None else None
+    asked = Asked(figure, Path(out), runs, workers, sources, tuple(map(int, setting)), tables)
+    runs_nothing = collect_only or sources or tables is not None
+    code = 0 if runs_nothing else run_study(asked, check)
+    return max(code, draw_study(asked))

@@ -1,6 +1,5 @@
 """One run of a system as campaigns know it: seed in, row and tables out."""
 
-import inspect
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -13,8 +12,8 @@ from formicarium import __version__
 from formicarium.campaigns.configuration import Configuration
 from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.result import Function, Result, Watch
+from formicarium.commands.sources import sources_of
 from formicarium.commands.tables import result_of
-from formicarium.compiled import PACKAGE, source_hash
 from formicarium.systems.registry import System, resolve
 from formicarium.trial.record import Trial
 
@@ -71,7 +70,7 @@ def _perform(
     watch: Watch | None,
     recordings: Path | None = None,
 ) -> Result:
-    if _sources(resolve(system)) != sources:
+    if sources_of(resolve(system)) != sources:
         raise ChangedSources("the sources were edited while the set ran; run the same command again")
     every = frames_every.get(seed)
     if recordings is not None:
@@ -104,10 +103,4 @@ def as_json(parameters: BaseModel) -> bytes:
 def configuration_of(system: System, parameters: BaseModel) -> Configuration:
     """Return what decides the results of a system with these parameters."""
     plain: Any = from_json(as_json(parameters))
-    return Configuration(system.name, plain, _sources(system), __version__)
-
-
-def _sources(system: System) -> str:
-    # The folder of a system that is not part of the package decides results as well.
-    folder = Path(inspect.getfile(inspect.unwrap(system.run))).resolve().parent
-    return source_hash(None if folder.is_relative_to(PACKAGE) else folder)
+    return Configuration(system.name, plain, sources_of(system), __version__)

@@ -39,6 +39,7 @@ class BoothTable(Table):
     byte_period: float = number(0.2, "s", "the booth sends a byte this often [device firmware]", gt=0, le=60)
     exchange_failure: float = number(0.02, "1", "probability that a visit gets no answer [choice TS-25]", ge=0, le=1)
     friction: float = number(0.1, "1", "of the walls [model]", ge=0)
+    delayed_feedback: bool = number(False, "1", "no verdict on a task, only on a whole sequence of them [paper]")
 
 
 BOOTH = np.dtype(

@@ -7,4 +7,5 @@ HEARD_HIGH = 0x10  # booth: go on with the lower half
 HEARD_LOW = 0x11  # booth: identity complete, claim your task
 WORKING = 0x12  # booth: claim noted, stay
 SUCCESS = 0x7F  # booth: task done, in the right order
+NOTED = 0x78  # booth: task done, no verdict before the sequence is complete
 FAILURE = 0x70  # booth: task done, out of order

@@ -1,21 +1,86 @@
-"""What the paper says about Mark I3, tested on our runs: a sentence and a verdict each."""
+"""What the paper says, R1 to R20, tested on our runs: a sentence, what we found, and a plain verdict each."""
 
-from collections.abc import Callable, Mapping, Sequence
-from statistics import fmean
+from collections.abc import Callable, Iterable
+from functools import partial
+from statistics import median
 from typing import NamedTuple
 
-from formicarium.statistics.compare import fisher
-from formicarium.statistics.effects import holm
-from formicarium.statistics.intervals import wilson
-from formicarium.statistics.lines import fit_line
-from formicarium.studies.cells import LEVELS, PAPER_SUCCESS, StudyCell, by_setting, level_name
+from formicarium.studies import mark_ii, scaling, smallest_arena
+from formicarium.studies.cells import Study, StudyCell, grid
+from formicarium.studies.verdicts import LEAST_RUNS, NO_RUNS, Answer, Missing, loses_more
 
-LEAST_RUNS = 10  # of a cell that is tested; fewer would find anything compatible
-LEAST_R_SQUARED = 0.98  # "linear"; the paper gives no number
-MOST_SPREAD = 0.20  # "about the same" while the robots double; the paper gives no number
-ALPHA = 0.05
+I3, I4, II3, II4 = "mark-i3", "mark-i4", "mark-ii3", "mark-ii4"
+Test = Callable[[Study], Answer]
 
-Study = Mapping[int, Mapping[int, StudyCell]]  # setting -> level -> cell with runs
+STATEMENTS: tuple[tuple[str, str, Test], ...] = (
+    ("R1", "9 of 10 runs of Mark I3 on e-pucks did ten sequences by 2,400 s", smallest_arena.robots),
+    ("R2", "27 of 30 simulated runs of Mark I3 did, with 20 robots", partial(smallest_arena.success, variant=I3)),
+    ("R3a", "Mark I4: 27 of 30 by 100,000 s, with 22 robots", partial(smallest_arena.success, variant=I4)),
+    ("R3b", "Mark I4 is slightly slower than Mark I3", partial(smallest_arena.slower, one=I4, other=I3)),
+    ("R4", "Mark II3: 24 of 30 by 100,000 s, with 25 robots", partial(smallest_arena.success, variant=II3)),
+    ("R5a", "Mark II4: 20 of 30 by 100,000 s, with 27 robots", partial(smallest_arena.success, variant=II4)),
+    ("R5b", "Mark II4 succeeds less often than Mark II3", partial(smallest_arena.less_successful, one=II4, other=II3)),
+    (
+        "R6",
+        "Mark II3: half of the runs in less than 2,000 s",
+        partial(smallest_arena.half_by, variant=II3, time=2000.0),
+    ),
+    (
+        "R7",
+        "Mark II4: half of the runs only after 8,000 s",
+        partial(smallest_arena.half_after, variant=II4, time=8000.0),
+    ),
+    ("R8", "e-pucks and simulation of Mark I3 perform alike", smallest_arena.alike),
+    ("R9a", "Mark I3 scales well to larger arenas with √2 times the robots each", partial(scaling.scales, variant=I3)),
+    ("R9b", "so does Mark I4", partial(scaling.scales, variant=I4)),
+    ("R10", "the number of chain members of Mark I3 is linear in the side of the arena", scaling.linear),
+    ("R11a", "Mark I3: slightly more robots (+20 %) help in all settings", partial(scaling.more_help, variant=I3)),
+    ("R11b", "Mark I3: fewer robots (-20 %) degrade success", partial(scaling.fewer_degrade, variant=I3)),
+    ("R11c", "Mark I3 is robust to many more robots (+40 to +100 %)", partial(scaling.robust, variant=I3)),
+    ("R12a", "Mark I4: slightly more robots (+20 %) mostly help", partial(scaling.more_help, variant=I4)),
+    ("R12b", "Mark I4: fewer robots (-20 %) degrade success", partial(scaling.fewer_degrade, variant=I4)),
+    ("R12c", "Mark I4: many more robots (+80, +100 %) hurt too", partial(scaling.crowds_hurt, variant=I4)),
+    ("R13a", "in one arena Mark I3 has about as many members whatever N", partial(scaling.same_members, variant=I3)),
+    (
+        "R13b",
+        "so has Mark I4 in at least half of the runs of every setting, with the default or more robots",
+        partial(scaling.same_members, variant=I4, centre=median),
+    ),
+    ("R14a", "Mark II3 scales less well than Mark I3", partial(scaling.scales_less, one=II3, other=I3)),
+    ("R14b", "Mark II3 is close to one half in the largest arena", partial(scaling.half_of_the_runs, variant=II3)),
+    ("R14c", "Mark II3 is less robust to N than Mark I3", partial(loses_more, one=II3, other=I3)),
+    ("R15a", "Mark II4 scales less well than Mark I4", partial(scaling.scales_less, one=II4, other=I4)),
+    ("R15b", "Mark II4 is less robust to N than Mark I4", partial(loses_more, one=II4, other=I4)),
+    (
+        "R15c",
+        "ten sequences of Mark II4 take longer than of Mark II3",
+        partial(smallest_arena.slower, one=II4, other=II3),
+    ),
+    ("R16a", "Marks II3 and II4 close the loop in about the same time, II4 slightly sooner", mark_ii.same_chain_time),
+    ("R16b", "because its branches hold fewer robots", mark_ii.shorter_branches),
+    (
+        "R17",
+        "the first sequence of Mark II4 takes longer than that of Mark II3",
+        partial(smallest_arena.slower, one=II4, other=II3, column="time_1_s"),
+    ),
+    ("R18a", "once Mark II3 has done its first sequence it reliably does ten", partial(mark_ii.reliable, variant=II3)),
+    ("R18b", "so does Mark II4", partial(mark_ii.reliable, variant=II4)),
+    (
+        "R19a",
+        "in successful runs of Mark II3 the number of members does not depend on N",
+        partial(scaling.same_members, variant=II3, successful=True),
+    ),
+    ("R19b", "nor in those of Mark II4", partial(scaling.same_members, variant=II4, successful=True)),
+    ("R20", "Mark II fails because branches merge, pushed links stay pushed, and runs are long", mark_ii.guesses),
+    (
+        "TS-151a",
+        "derived: without a fault Mark II3 fails as often before its first success as the search tree says",
+        partial(mark_ii.searched_in_order, variant=II3),
+    ),
+    ("TS-151b", "derived: so does Mark II4", partial(mark_ii.searched_in_order, variant=II4)),
+    ("TS-151c", "derived: all 6 places of the correct order are as likely", partial(mark_ii.uniform, variant=II3)),
+    ("TS-151d", "derived: all 24 are", partial(mark_ii.uniform, variant=II4)),
+)
 
 
 class Claim(NamedTuple):
@@ -24,128 +89,17 @@ class Claim(NamedTuple):
     number: str
     statement: str  # the paper's, re-worded
     finding: str  # ours, in numbers
-    verdict: str  # compatible, better, worse, not testable
+    verdict: str  # compatible, better, worse, not testable from the text, too few runs yet
 
 
-def claims(cells: Sequence[StudyCell]) -> list[Claim]:
-    """Test R9, R10, R11 (in three parts) and R13."""
-    study = by_setting(cell for cell in cells if len(cell.runs) >= LEAST_RUNS)
-    tests: list[tuple[str, str, Callable[[Study], tuple[str, str]]]] = [
-        ("R9", "success scales to larger arenas with √2 times the robots each (27/30 in the smallest)", _scales),
-        ("R10", "the number of chain members is linear in the side of the arena", _linear),
-        ("R11a", "slightly more robots (+20 %) help in all settings", _more_help),
-        ("R11b", "fewer robots (-20 %) degrade success", _fewer_degrade),
-        ("R11c", "success is robust to many more robots (+40 to +100 %)", _robust),
-        ("R13", "in one arena the number of chain members is about the same whatever the number of robots", _same),
-    ]
-    return [Claim(number, statement, *test(study)) for number, statement, test in tests]
-
-
-def _scales(study: Study) -> tuple[str, str]:
-    found = [(setting, levels[0]) for setting, levels in study.items() if 0 in levels]
-    if len(found) < 2:
-        return "runs with the default number of robots in fewer than two settings", "not testable"
-    p_values = holm([fisher(cell.successes, len(cell.runs), *PAPER_SUCCESS).p_value for _, cell in found])
-    said = []
-    for (setting, cell), p_value in zip(found, p_values):
-        share, closed = wilson(cell.successes, len(cell.runs)), len(cell.members("members_at_completion"))
-        said.append(
-            f"setting {setting}: {cell.successes}/{len(cell.runs)} ({share.low:.2f} to {share.high:.2f}), "
-            f"chain complete in {closed}, p {p_value:.2g}"
-        )
-    paper = PAPER_SUCCESS[0] / PAPER_SUCCESS[1]
-    higher = [cell.successes / len(cell.runs) > paper for _, cell in found]
-    return f"{'; '.join(said)} (Fisher against 27/30, Holm)", _verdict(higher, p_values)
-
-
-def _linear(study: Study) -> tuple[str, str]:
-    cells = [levels[0] for levels in study.values() if 0 in levels]
-    points = [(cell.side, fmean(m)) for cell in cells if (m := cell.members("members_at_completion"))]
-    if len(points) < 3:
-        return f"completed chains in {len(points)} arenas", "not testable"
-    line = fit_line(*zip(*points))
-    return (
-        f"{line.intercept:.1f} members + {line.slope:.1f} per metre through the means of {len(points)} arenas, "
-        f"R² = {line.r_squared:.3f} (we ask for {LEAST_R_SQUARED})",
-        "compatible" if line.r_squared >= LEAST_R_SQUARED else "worse",
-    )
-
-
-def _against_default(study: Study, level: int) -> tuple[str, list[bool], list[float], list[int]]:
-    """Return what to say, where success is higher than with the default, p-values after Holm, and pooled counts."""
-    pairs = [(k, levels[level], levels[0]) for k, levels in study.items() if level in levels and 0 in levels]
-    p_values = [fisher(one.successes, len(one.runs), two.successes, len(two.runs)).p_value for _, one, two in pairs]
-    said = [
-        f"setting {k}: {one.successes}/{len(one.runs)} against {two.successes}/{len(two.runs)}, p {p_value:.2g}"
-        for (k, one, two), p_value in zip(pairs, p_values)
-    ]
-    higher = [one.successes / len(one.runs) > two.successes / len(two.runs) for _, one, two in pairs]
-    pooled = [sum(numbers) for numbers in zip(*(
-        (one.successes, len(one.runs), two.successes, len(two.runs)) for _, one, two in pairs
-    ))]  # fmt: skip
-    if pooled:
-        said.append(
-            f"all {len(pairs)} together: {pooled[0]}/{pooled[1]} against {pooled[2]}/{pooled[3]}, "
-            f"p {fisher(*pooled).p_value:.2g} (Fisher)"
-        )
-    return "; ".join(said), higher, holm(p_values), pooled
-
-
-def _more_help(study: Study) -> tuple[str, str]:
-    finding, higher, p_values, pooled = _against_default(study, 20)
-    if not pooled:
-        return "no setting has runs with +20 % and with the default", "not testable"
-    lower = pooled[0] / pooled[1] < pooled[2] / pooled[3]
-    worse = (lower and fisher(*pooled).p_value < ALPHA) or _verdict(higher, p_values) == "worse"
-    return finding, "worse" if worse else "compatible"
-
-
-def _fewer_degrade(study: Study) -> tuple[str, str]:
-    finding, _, _, pooled = _against_default(study, -20)
-    if not pooled:
-        return "no setting has runs with -20 % and with the default", "not testable"
-    lower = pooled[0] / pooled[1] < pooled[2] / pooled[3]
-    return finding, "compatible" if lower and fisher(*pooled).p_value < ALPHA else "better"
-
-
-def _robust(study: Study) -> tuple[str, str]:
-    said, levels, together, lost = [], [], [], 0
-    for level in (level for level in LEVELS if level >= 40):
-        _, higher, p_values, pooled = _against_default(study, level)
-        if not pooled:
-            continue
-        down = [p_value < ALPHA and not up for up, p_value in zip(higher, p_values)]
-        levels.append(pooled[0] / pooled[1] > pooled[2] / pooled[3])
-        together.append(fisher(*pooled).p_value)
-        lost += sum(down)
-        said.append(
-            f"{level_name(level)}: {pooled[0]}/{pooled[1]} against {pooled[2]}/{pooled[3]} in {len(down)} settings, "
-            f"p {together[-1]:.2g}, significantly lower in {sum(down)} of them"
-        )
-    if not said:
-        return "no setting has runs with +40 % or more and with the default", "not testable"
-    worse = lost or _verdict(levels, holm(together)) == "worse"
-    return f"{'; '.join(said)} (Fisher)", "worse" if worse else "compatible"
-
-
-def _same(study: Study) -> tuple[str, str]:
-    spreads, said = [], []
-    for setting, levels in study.items():
-        cells = [cell for level, cell in levels.items() if level >= 0]
-        if len(cells) < 2:
-            continue
-        means = [fmean(cell.members()) for cell in cells]
-        spreads.append((max(means) - min(means)) / fmean(means))
-        done = [fmean(values) for cell in cells if (values := cell.members(successful=True))]
-        only = f" (successful runs {(max(done) - min(done)) / fmean(done):.0%})" if len(done) > 1 else ""
-        said.append(f"setting {setting}: {min(means):.1f} to {max(means):.1f}, spread {spreads[-1]:.0%}{only}")
-    if not spreads:
-        return "no setting has runs with two numbers of robots from the default upwards", "not testable"
-    finding = f"{'; '.join(said)}; mean members at the end, default to +100 % (we ask for at most {MOST_SPREAD:.0%})"
-    return finding, "compatible" if max(spreads) <= MOST_SPREAD else "worse"
-
-
-def _verdict(higher: Sequence[bool], p_values: Sequence[float]) -> str:
-    """Sum up tests of "ours is not lower": worse if one is significantly lower, better if one is higher and none so."""
-    clear = [up for up, p_value in zip(higher, p_values) if p_value < ALPHA]
-    return "compatible" if not clear else "better" if all(clear) else "worse"
+def claims(cells: Iterable[StudyCell]) -> list[Claim]:
+    """Test every statement on the cells that have enough runs."""
+    study = grid(cells, LEAST_RUNS)
+    found = []
+    for number, statement, test in STATEMENTS:
+        try:
+            finding, verdict = test(study)
+        except Missing as missing:
+            finding, verdict = str(missing), NO_RUNS
+        found.append(Claim(number, statement, finding, verdict))
+    return found

@@ -1,16 +1,19 @@
-"""Figs 4, 5A and S18 of Garattoni & Birattari 2018 from our runs, the paper's own numbers beside them."""
+"""Figs 4, 5, 7, S18 and S19 of Garattoni & Birattari 2018 from our runs, the paper's own numbers beside them."""
 
 from collections.abc import Mapping, Sequence
 
 from formicarium.statistics.intervals import wilson
 from formicarium.statistics.lines import fit_line
 from formicarium.statistics.runtimes import run_times
-from formicarium.studies.cells import LEVELS, PAPER_SUCCESS, TARGETS, StudyCell, by_setting, level_name
+from formicarium.studies.cells import LEVELS, NAMES, PAPER, TARGETS, VARIANTS, StudyCell, grid, level_name
 from formicarium.studies.sheet import Box, Curve, Panel, Sheet
 
 STYLES = {1: "dotted", 5: "dashdot", 10: "solid"}
 STYLE_KEY = [(style, f"{count} sequence{'s' * (count > 1)}") for count, style in STYLES.items()]
-PAPER_CAP = 2400.0  # s, setting 0
+SCALABILITY = {"mark-i3": "5A", "mark-i4": "5B", "mark-ii3": "7A", "mark-ii4": "7B"}
+HALF_OF_THE_RUNS = {"mark-ii3": (2000.0, "paper: half before 2,000 s"), "mark-ii4": (8000.0, "half after 8,000 s")}
+LONG = 20_000.0  # s; a longer axis of time is logarithmic,
+FIRST = 100.0  # s, and begins here
 TIME, SHARE = "time (s)", "share of runs"
 
 
@@ -26,46 +29,52 @@ def counted(cells: Sequence[StudyCell], wanted: int | None = None) -> str:
     return f"{runs} a cell" + (f", {len(numbers)} of {wanted} cells" if len(numbers) < wanted else "")
 
 
-def figure_4(published: Mapping[str, Sequence[float]], prolonged: StudyCell) -> Sheet:
-    """Return the paper's robot runs (A) beside ours, prolonged (B)."""
+def figure_4(published: Mapping[str, Sequence[float]], bases: Sequence[StudyCell]) -> Sheet:
+    """Return the paper's robot runs (A) beside ours in the smallest arena (B to E; B prolonged)."""
+    cap = VARIANTS["mark-i3"].time_caps[0]
     theirs = [
-        Curve(run_times(published[column], [PAPER_CAP] * len(published[column])), STYLES[count], band=count == 10)
+        Curve(run_times(published[column], [cap] * len(published[column])), STYLES[count], band=count == 10)
         for column, count in TARGETS.items()
     ]
-    robots = Panel(
-        "A  The paper's e-pucks (its data, Table S3)",
-        f"{len(published['time_10_s'])} runs, 20 robots",
-        TIME, SHARE, theirs, end=PAPER_CAP,
-    )  # fmt: skip
-    note = counted([prolonged])
-    if prolonged.runs:
-        share = wilson(prolonged.reached(PAPER_CAP), len(prolonged.runs))
-        note += f", {prolonged.robots} robots; ten sequences by {PAPER_CAP:,.0f} s: {share.successes}/{share.runs}"
-        note += f" ({share.low:.0%} to {share.high:.0%})"
-    simulated = Panel(
-        f"B  Simulated here, prolonged to {prolonged.cap:,.0f} s", note, TIME, SHARE, _three_targets(prolonged),
-        end=prolonged.cap, limits=[(PAPER_CAP, f"cap {PAPER_CAP:,.0f} s")],
-        ratios=[(PAPER_CAP, wilson(*PAPER_SUCCESS), "paper, simulated: 27/30 by the cap, 95 % interval")],
-    )  # fmt: skip
-    return Sheet("figure-4", "Fig. 4: Mark I3, time to 1, 5 and 10 sequences", [[robots, simulated]], styles=STYLE_KEY)
+    note = f"{len(published['time_10_s'])} runs, 20 robots: the paper's data, Table S3"
+    robots = Panel("A  Mark I3, the paper's e-pucks", note, TIME, SHARE, theirs, end=cap)
+    panels = [robots, *(_base(letter, cell) for letter, cell in zip("BCDE", bases))]
+    title = "Fig. 4: time to 1, 5 and 10 sequences in the smallest arena"
+    return Sheet("figure-4", title, [panels[:3], panels[3:]], styles=STYLE_KEY)
 
 
-def figure_5a(cells: Sequence[StudyCell]) -> Sheet:
-    """Return scalability (a to e), robustness (f to j) and chain members (k to o) of Mark I3."""
+def _base(letter: str, cell: StudyCell) -> Panel:
+    cap = VARIANTS[cell.variant].time_caps[0]
+    note = f"{counted([cell])}, {cell.robots} robots"
+    if cell.runs:
+        share = wilson(cell.reached(cap), len(cell.runs))
+        note += f"; ten by {cap:,.0f} s: {share.successes}/{share.runs} ({share.low:.0%} to {share.high:.0%})"
+    limits = [(cap, f"cap {cap:,.0f} s")] if cap < cell.cap else []
+    return Panel(
+        f"{letter}  {NAMES[cell.variant]}, simulated here", note, TIME, SHARE, _three_targets(cell),
+        start=_start(cell.cap), end=cell.cap, limits=[*limits, *filter(None, [HALF_OF_THE_RUNS.get(cell.variant)])],
+        ratios=[(cap, wilson(*PAPER[cell.variant]), "paper: {}/{} by the cap".format(*PAPER[cell.variant]))],
+    )  # fmt: skip
+
+
+def figure_of_variant(cells: Sequence[StudyCell]) -> Sheet:
+    """Return scalability (a to e), robustness (f to j) and chain members (k to o) of one variant: Figs 5 and 7."""
+    variant = cells[0].variant
     settings = {cell.setting: [other for other in cells if other.setting == cell.setting] for cell in cells}
     rows: list[list[Panel]] = [[], [], []]
     for k, (setting, all_cells) in enumerate(sorted(settings.items())):
-        own = by_setting(all_cells).get(setting, {})
+        own = grid(all_cells)[variant].get(setting, {})
         place, cap = f"setting {setting}, side {all_cells[0].side:.2f} m", all_cells[0].cap
         default = own.get(0)
-        curves = _three_targets(default) if default else []
         robots = next((f", {cell.robots} robots" for cell in all_cells if cell.level == 0), "")
         note = counted([default] if default else []) + robots
-        rows[0].append(Panel(f"{chr(97 + k)}  {place}", note, TIME, SHARE, curves, end=cap))
+        curves = _three_targets(default) if default else []
+        start = _start(cap)
+        rows[0].append(Panel(f"{chr(97 + k)}  {place}", note, TIME, SHARE, curves, start=start, end=cap))
         shaded = [(LEVELS.index(level), cell) for level, cell in own.items()]
         note = counted(list(own.values()), len(all_cells))
         curves = [Curve(cell.times(), shade=shade) for shade, cell in shaded]
-        rows[1].append(Panel(f"{chr(102 + k)}  ten sequences", note, TIME, SHARE, curves, end=cap))
+        rows[1].append(Panel(f"{chr(102 + k)}  ten sequences", note, TIME, SHARE, curves, start=start, end=cap))
         boxes = [
             Box(shade, cell.members(), [float(run["members"]) for run in cell.runs if not cell.succeeded(run)], shade)
             for shade, cell in shaded
@@ -74,19 +83,15 @@ def figure_5a(cells: Sequence[StudyCell]) -> Sheet:
         ticks = [numbers.get(level, "") for level in LEVELS]
         title = f"{chr(107 + k)}  chain at the end"
         rows[2].append(Panel(title, note, "robots", "chain members", boxes=boxes, ticks=ticks))
-    return Sheet(
-        "figure-5a",
-        "Fig. 5A: Mark I3 in five arenas with few and many robots",
-        rows,
-        [level_name(level) for level in LEVELS],
-        STYLE_KEY,
-        "unsuccessful run",
-    )
+    number = SCALABILITY[variant]
+    title = f"Fig. {number}: {NAMES[variant]} in five arenas with few and many robots"
+    shades = [level_name(level) for level in LEVELS]
+    return Sheet(f"figure-{number.lower()}", title, rows, shades, (), STYLE_KEY, "unsuccessful run")
 
 
 def figure_s18(cells: Sequence[StudyCell]) -> Sheet:
-    """Return chain members against the side of the arena, with the default numbers of robots."""
-    own = [levels[0] for levels in by_setting(cells).values() if levels.get(0)]
+    """Return chain members of Mark I3 against the side of the arena, with the default numbers of robots."""
+    own = [levels[0] for levels in grid(cells)["mark-i3"].values() if levels.get(0)]
     measured = [(cell.side, cell.members("members_at_completion")) for cell in own]
     measured = [(side, values) for side, values in measured if values]
     boxes = [Box(side, values) for side, values in measured]
@@ -100,7 +105,35 @@ def figure_s18(cells: Sequence[StudyCell]) -> Sheet:
     return Sheet("figure-s18", "Fig. S18: chain members of Mark I3 and the side of the arena", [[panel]])
 
 
+def figure_s19(bases: Sequence[StudyCell]) -> Sheet:
+    """Return Mark II3 beside Mark II4: chain and first sequence (A), links of a branch (B), in the smallest arena."""
+    cells = [cell for cell in bases if VARIANTS[cell.variant].mark == 2]
+    notes, curves, boxes = [], [], []
+    for shade, cell in enumerate(cells):
+        notes.append(f"{NAMES[cell.variant]} {counted([cell])}")
+        if cell.runs:
+            curves.append(Curve(cell.times("time_chain_s"), "dashed", shade))
+            curves.append(Curve(cell.times("time_1_s"), "dotted", shade))
+        if links := cell.links_of_branches:
+            boxes.append(Box(shade, links, shade=shade))
+    end = max((cell.cap for cell in cells), default=None)
+    branches = f"{sum(len(box.values) for box in boxes)} branches of closed loops; guardians not counted"
+    names = [NAMES[cell.variant] for cell in cells]
+    panels = [
+        Panel("A  Chain and first sequence", ", ".join(notes), TIME, SHARE, curves, start=FIRST / 2, end=end),
+        Panel("B  Robots in a branch", branches, "", "links", boxes=boxes, ticks=names),
+    ]
+    keys = [("dashed", "chain complete"), ("dotted", "first sequence")]
+    return Sheet(
+        "figure-s19", "Fig. S19: Mark II3 and Mark II4 in the smallest arena", [panels], names, ("blue", "red"), keys
+    )
+
+
 def _three_targets(cell: StudyCell) -> list[Curve]:
     if not cell.runs:
         return []
     return [Curve(cell.times(column), STYLES[count], band=count == 10) for column, count in TARGETS.items()]
+
+
+def _start(end: float) -> float:
+    return FIRST if end > LONG else 0.0

@@ -12,7 +12,7 @@ class Curve(NamedTuple):
     """A run-time distribution."""
 
     times: RunTimes
-    style: str = "solid"  # solid, dashdot or dotted
+    style: str = "solid"  # solid, dashed, dashdot or dotted
     shade: int | None = None  # place in the row of shades, from 0; None: ink
     band: bool = False  # with its 95 % band
 
@@ -37,7 +37,8 @@ class Panel(NamedTuple):
     boxes: Sequence[Box] = ()
     ticks: Sequence[str] = ()  # labels of the boxes; their places if there are none
     line: tuple[Line, str] | None = None  # with its label
-    end: float | None = None  # of the axis across
+    start: float = 0.0  # of the axis across; above 0: a logarithmic one
+    end: float | None = None
     limits: Sequence[tuple[float, str]] = ()  # upright lines, with labels
     ratios: Sequence[tuple[float, Share, str]] = ()  # place across, share with its interval, label
 
@@ -49,5 +50,6 @@ class Sheet(NamedTuple):
     title: str
     panels: Sequence[Sequence[Panel]]
     shades: Sequence[str] = ()  # labels of the shades, in order
+    colours: Sequence[str] = ()  # names of the shades' colours; a row from light to dark if there are none
     styles: Sequence[tuple[str, str]] = ()  # (style, label)
     flag: str = ""  # what flagged values are

@@ -16,6 +16,9 @@ from formicarium.trial.watching import Watching
 
 BUILT_IN = {
     "mark-i3": "formicarium.systems.sequencing.study:MARK_I3",
+    "mark-i4": "formicarium.systems.sequencing.study:MARK_I4",
+    "mark-ii3": "formicarium.systems.sequencing.study:MARK_II3",
+    "mark-ii4": "formicarium.systems.sequencing.study:MARK_II4",
 }
 GROUP = "formicarium.systems"
 

@@ -10,14 +10,14 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator, PercentFormatter
+from matplotlib.ticker import MaxNLocator, NullFormatter, PercentFormatter, StrMethodFormatter
 
 from formicarium.studies.sheet import Box, Curve, Panel, Sheet
 from formicarium.views.figure import new_figure, plain, save
-from formicarium.views.style import CURVES, GRID, INK, PALE_INK
+from formicarium.views.style import CURVES, GRID, INK, PALE_INK, PAPER, colour
 
-TOP, BOTTOM, LEFT, RIGHT = 0.95, 0.6, 0.75, 0.25  # inches around the panels
-ACROSS, UP = 0.55, 0.95  # inches between two panels
+TOP, BOTTOM, LEFT, RIGHT = 0.95, 0.6, 0.75, 0.35  # inches around the panels
+ACROSS, UP = 0.7, 0.95  # inches between two panels
 FLAG = CURVES[1]
 
 
@@ -28,8 +28,10 @@ def draw_sheet(sheet: Sheet, path: Path) -> Path:
         StoreError: if the file cannot be written.
     """
     rows, columns = len(sheet.panels), max(len(row) for row in sheet.panels)
-    wide, high = {1: (6.6, 4.4), 2: (5.2, 3.9)}.get(columns, (3.0, 2.35))
-    shades = [matplotlib.colormaps["viridis_r"](x) for x in np.linspace(0.08, 1.0, max(len(sheet.shades), 1))]
+    wide, high = {1: (6.6, 4.4), 2: (5.2, 3.9), 3: (4.3, 3.1)}.get(columns, (3.0, 2.35))
+    shades = [colour(name) for name in sheet.colours] or [
+        matplotlib.colormaps["viridis_r"](x) for x in np.linspace(0.08, 1.0, max(len(sheet.shades), 1))
+    ]
     keys = _keys(sheet, shades)
     width = LEFT + columns * wide + (columns - 1) * ACROSS + RIGHT
     height = TOP + (0.4 if keys else 0.0) + rows * high + (rows - 1) * UP + BOTTOM
@@ -69,12 +71,13 @@ def _draw_panel(axes: Axes, panel: Panel, shades: list, *, names_up: bool) -> No
         axes.axvline(place, color=PALE_INK, lw=1, ls=(0, (4, 3)))
         axes.annotate(label, (place, 0.02), (5, 0), textcoords="offset points", size=9, color=PALE_INK)
     for curve in panel.curves:
-        _draw_curve(axes, curve, panel.end or curve.times.end, INK if curve.shade is None else shades[curve.shade])
+        tint = INK if curve.shade is None else shades[curve.shade]
+        _draw_curve(axes, curve, (panel.start, panel.end or curve.times.end), tint)
     for place, share, label in panel.ratios:
         reach = [[share.value - share.low], [share.high - share.value]]
         axes.errorbar([place], [share.value], reach, fmt="D", color=FLAG, ms=5, capsize=4, lw=1.6, zorder=5)
         axes.plot([], [], "D", color=FLAG, ms=5, label=label)
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.06), frameon=False, fontsize=9.5)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), facecolor=PAPER, edgecolor="none", fontsize=9)
     for box in panel.boxes:
         _draw_box(axes, box, panel, INK if box.shade is None else shades[box.shade])
     if panel.line and panel.boxes:
@@ -91,30 +94,35 @@ def _draw_panel(axes: Axes, panel: Panel, shades: list, *, names_up: bool) -> No
         axes.set_ylim(0, 1.08 * max(1.0, *(max(box.values) for box in panel.boxes)))
         axes.yaxis.set_major_locator(MaxNLocator(6, integer=True))
     elif panel.end is not None:
-        axes.set(xlim=(0, panel.end), ylim=(0, 1.03))
-        axes.xaxis.set_major_locator(MaxNLocator(5))
+        axes.set(xlim=(panel.start, panel.end * (1.25 if panel.start else 1.0)), ylim=(0, 1.03))
+        if panel.start:
+            axes.set_xscale("log")
+            axes.xaxis.set_minor_formatter(NullFormatter())
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(4))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
     if not panel.curves and not panel.boxes:
         axes.set_yticks([])
         axes.text(0.5, 0.5, "no runs yet", transform=axes.transAxes, ha="center", color=PALE_INK)
 
 
-def _draw_curve(axes: Axes, curve: Curve, end: float, colour: Any) -> None:
+def _draw_curve(axes: Axes, curve: Curve, ends: tuple[float, float], tint: Any) -> None:
     times = curve.times
-    x = np.concatenate([[0.0], times.times, [end]])
-    axes.step(x, [0.0, *times.share, times.share[-1]], where="post", color=colour, lw=1.8, ls=curve.style)
+    x = np.concatenate([[ends[0]], times.times, [ends[1]]])
+    axes.step(x, [0.0, *times.share, times.share[-1]], where="post", color=tint, lw=1.8, ls=curve.style)
     if curve.band:
         low, high = [0.0, *times.low, times.low[-1]], [np.nan, *times.high, times.high[-1]]
         axes.fill_between(x, low, high, step="post", color=CURVES[0], alpha=0.13, lw=0)
 
 
-def _draw_box(axes: Axes, box: Box, panel: Panel, colour: Any) -> None:
+def _draw_box(axes: Axes, box: Box, panel: Panel, tint: Any) -> None:
     width = 0.55 if panel.ticks else 0.12
     axes.boxplot(
         [box.values], positions=[box.place], widths=width, manage_ticks=False, patch_artist=True,
-        boxprops={"facecolor": GRID, "edgecolor": colour, "linewidth": 1.4},
-        whiskerprops={"color": colour, "linewidth": 1.2}, capprops={"color": colour, "linewidth": 1.2},
-        medianprops={"color": colour, "linewidth": 2},
+        boxprops={"facecolor": GRID, "edgecolor": tint, "linewidth": 1.4},
+        whiskerprops={"color": tint, "linewidth": 1.2}, capprops={"color": tint, "linewidth": 1.2},
+        medianprops={"color": tint, "linewidth": 2},
         whis=(0, 100),
     )  # fmt: skip
     beside = cycle((-0.12, 0.0, 0.12))

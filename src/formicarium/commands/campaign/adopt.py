@@ -1,44 +1,35 @@
 """``formicarium campaign adopt DESIGN FOLDER``: take over runs that are somewhere else."""
 
-from formicarium.commands.campaign.options import Settings
-from formicarium.commands.whole import Whole
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings
 
 
-def adopt(
-    design: str, folder: str, /, *, out: str | None = None, runs: Whole | None = None, set_: Settings = None
-) -> None:
+def adopt(design: DesignFile, folder: str, /, *, out: Out = None, runs: Runs = None, set_: Settings = None) -> None:
     """Take over the runs of the design that another folder holds, so that they need not be run again.
 
     The folder may be one of "formicarium run", or another campaign, for
     example from another machine. Nothing in it is changed.
 
-    Examples:
+    For example:
 
         formicarium campaign adopt study.toml formicarium-results/mark-i3-1a2b3c4d
 
     Parameters
     ----------
-    design
-        File of the design: .toml, .yaml or .py
     folder
         Where the runs are.
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
     """
     from pathlib import Path
 
     from formicarium.campaigns.adoption import adopt as take_over
+    from formicarium.campaigns.adoption import rows_in
     from formicarium.campaigns.ledger import Ledger
     from formicarium.campaigns.writer import Writer
     from formicarium.commands.campaign.screen import wide_console
     from formicarium.commands.campaign.study import Overrides, open_study
 
     study = open_study(design, out, Overrides(runs, tuple(set_ or ())))
+    rows = rows_in(Path(folder))  # before a folder of our own is made
     with Writer(Ledger(study.folder), study.manifest, study.jobs) as writer:
-        found = take_over(writer, study.jobs, Path(folder), study.design.keep)
+        found = take_over(writer, study.jobs, Path(folder), rows, study.design.keep)
     text = f"{found.new} runs taken over, {found.known} were there, {found.other} are not in the design"
     wide_console().print(text, highlight=False)

@@ -7,7 +7,7 @@ import pyarrow as pa
 from rich.console import Console
 from rich.table import Table
 
-from formicarium.campaigns import table
+from formicarium.campaigns import lock, table
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.files import replacing
 from formicarium.campaigns.ledger import Ledger
@@ -16,7 +16,7 @@ from formicarium.commands.campaign.screen import wide_console
 from formicarium.commands.campaign.standing import other_rows
 from formicarium.commands.campaign.study import Study, factor_names
 from formicarium.commands.errors import UserError
-from formicarium.commands.summary import measured, published
+from formicarium.commands.summary import END, measured, published
 from formicarium.statistics.intervals import wilson
 from formicarium.statistics.runtimes import in_words
 
@@ -42,17 +42,17 @@ def write_answers(study: Study, figures: bool) -> int:
             f"{study.folder}: no run of this design is done{besides}. "
             f"Start with: formicarium campaign run {study.source}{study.options}"
         )
-    table.write(rows, study.folder / "runs.parquet")
-    write_csv(rows, study.folder / "runs.csv")
     summary, shown = _summaries(study, rows)
-    write_csv(table.from_rows(summary), study.folder / "cells.csv")
+    with lock.held(study.folder / lock.NAME):  # another terminal may be collecting too
+        table.write(rows, study.folder / "runs.parquet")
+        write_csv(rows, study.folder / "runs.csv")
+        write_csv(table.from_rows(summary), study.folder / "cells.csv")
     pictures = _draw(study, rows) if figures else []
-    total = sum(len(job.keys) for job in study.jobs)
-    screen.print(f"[bold]{study.design.name}[/bold]: {len(rows)} of {total} runs", highlight=False)
+    screen.print(f"[bold]{study.design.name}[/bold]: {len(rows)} of {study.total} runs", highlight=False)
     screen.print(shown)
     for path in [study.folder / name for name in ("runs.parquet", "runs.csv", "cells.csv")] + pictures:
         screen.print(f"results   {path}", highlight=False, soft_wrap=True)
-    return 0 if len(rows) == total else 1
+    return 0 if len(rows) == study.total else 1
 
 
 def write_csv(rows: pa.Table, path: Path) -> None:
@@ -63,10 +63,12 @@ def write_csv(rows: pa.Table, path: Path) -> None:
         csv.write_csv(rows, file)
 
 
-def _rows_of(rows: pa.Table, job: Job) -> list[dict[str, Any]]:
+def _outcomes(study: Study, rows: pa.Table, job: Job) -> list[dict[str, Any]]:
+    """Return what run times are made of, of the runs of a cell."""
     import pyarrow.compute as pc
 
-    return rows.filter(pc.equal(rows["cell"], job.cell.number)).to_pylist()
+    names = [name for name in (END, *study.system.targets.columns) if name in rows.column_names]
+    return rows.select(names).filter(pc.equal(rows["cell"], job.cell.number)).to_pylist()
 
 
 def _summaries(study: Study, rows: pa.Table) -> tuple[list[dict[str, Any]], Table]:
@@ -79,7 +81,7 @@ def _summaries(study: Study, rows: pa.Table) -> tuple[list[dict[str, Any]], Tabl
         shown.add_column("median", justify="right")
     summary = []
     for job in study.jobs:
-        own = _rows_of(rows, job)
+        own = _outcomes(study, rows, job)
         row: dict[str, Any] = {"cell": job.cell.number, **job.cell.factors, "runs": len(own)}
         cells = [str(job.cell.number), *(str(job.cell.factors.get(name, "")) for name in factors), str(len(own))]
         columns = {label: column for column, label in study.system.targets.columns.items()}
@@ -98,7 +100,7 @@ def _draw(study: Study, rows: pa.Table) -> list[Path]:
 
     pictures = []
     for job in study.jobs:
-        found = measured(study.system, _rows_of(rows, job))
+        found = measured(study.system, _outcomes(study, rows, job))
         if found:
             title = f"{study.design.name}, cell {job.cell.number}: {job.cell.label}"
             path = study.folder / "figures" / f"runtimes-cell-{job.cell.number:03d}.png"

@@ -1,15 +1,14 @@
 """``formicarium campaign clean DESIGN``: remove what a folder holds besides the design's runs."""
 
-from formicarium.commands.campaign.options import Settings, Switch
-from formicarium.commands.whole import Whole
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings, Switch
 
 
 def clean(
-    design: str,
+    design: DesignFile,
     /,
     *,
-    out: str | None = None,
-    runs: Whole | None = None,
+    out: Out = None,
+    runs: Runs = None,
     set_: Settings = None,
     yes: Switch = False,
 ) -> None:
@@ -18,21 +17,13 @@ def clean(
     Says what would go; does it only with --yes. Files that were set aside as
     damaged go too. Rows of the design as it is today stay.
 
-    Examples:
+    For example:
 
         formicarium campaign clean study.toml
         formicarium campaign clean study.toml --yes
 
     Parameters
     ----------
-    design
-        File of the design: .toml, .yaml or .py
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
     yes
         Do it.
     """

@@ -1,17 +1,16 @@
 """``formicarium campaign collect DESIGN``: one table of all runs, and figures."""
 
-from formicarium.commands.campaign.options import Settings, Switch
-from formicarium.commands.whole import Whole
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings, Sources, Switch
 
 
 def collect(
-    design: str,
+    design: DesignFile,
     /,
     *,
-    out: str | None = None,
-    runs: Whole | None = None,
+    out: Out = None,
+    runs: Runs = None,
     set_: Settings = None,
-    sources: str | None = None,
+    sources: Sources = None,
     figures: Switch = False,
 ) -> int:
     """Write one tidy table of all runs that are done, and sum up every cell.
@@ -21,23 +20,13 @@ def collect(
     whatever did the runs. cells.csv has one row a cell. Exit code 0 if every
     run of the design is in it, 1 if not.
 
-    Examples:
+    For example:
 
         formicarium campaign collect study.toml
         formicarium campaign collect study.toml --figures
 
     Parameters
     ----------
-    design
-        File of the design: .toml, .yaml or .py
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
-    sources
-        Take the rows that these sources made (a hash, as in the rows) instead of today's.
     figures
         Draw the run-time distributions of every cell too.
     """

@@ -18,7 +18,7 @@ def compare(first: str, second: str, /, *, a: Choice = None, b: Choice = None, o
     intervals are 95 %; p-values in brackets are adjusted for the number of
     tests (Holm).
 
-    Examples:
+    For example:
 
         formicarium campaign compare old new
         formicarium campaign compare study study --a spacing=0.15 --b spacing=0.18

@@ -88,9 +88,9 @@ def runs_in(folder: Path, chosen: Sequence[str]) -> Runs:
 
 def _fits(value: Any, text: str) -> bool:
     try:
-        return value == json.loads(text)
+        return str(value) == text or value == json.loads(text)
     except ValueError:
-        return str(value) == text
+        return False
 
 
 def system_of(one: Runs, other: Runs) -> System:

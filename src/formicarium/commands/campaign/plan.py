@@ -1,27 +1,15 @@
 """``formicarium campaign plan DESIGN``: what would be run."""
 
-from formicarium.commands.campaign.options import Settings
-from formicarium.commands.whole import Whole
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings
 
 
-def plan(design: str, /, *, out: str | None = None, runs: Whole | None = None, set_: Settings = None) -> None:
+def plan(design: DesignFile, /, *, out: Out = None, runs: Runs = None, set_: Settings = None) -> None:
     """Show the cells of a design with their seeds, and what of them is done; run nothing.
 
-    Examples:
+    For example:
 
         formicarium campaign plan study.toml
         formicarium campaign plan study.toml --runs 100 --set spacing=0.15
-
-    Parameters
-    ----------
-    design
-        File of the design: .toml, .yaml or .py
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
     """
     from formicarium.campaigns.ledger import Ledger
     from formicarium.commands.campaign.screen import wide_console
@@ -32,11 +20,10 @@ def plan(design: str, /, *, out: str | None = None, runs: Whole | None = None, s
     ledger = Ledger(study.folder)
     ledger.refresh()
     console = wide_console()
-    total = sum(len(job.keys) for job in study.jobs)
     cells = len(study.jobs)
     console.print(
         f"[bold]{study.design.name}[/bold]: {cells} cell{'s' * (cells != 1)} x {study.design.count} "
-        f"= {total} runs of {study.design.system}",
+        f"= {study.total} runs of {study.design.system}",
         highlight=False,
     )
     console.print(cells_table(study, standing_of(study, ledger), seeds=True))

@@ -5,10 +5,9 @@ import time
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as Bars
 
 from formicarium.campaigns.coordinator import Standing
+from formicarium.commands.progress import bars
 
 LOGGED = 60.0  # seconds between two lines where there is no terminal
 
@@ -21,16 +20,7 @@ class CampaignProgress:
         self._console = console
         self._name = name
         self._logged = time.monotonic()
-        self._bars = Bars(
-            SpinnerColumn(),
-            TextColumn("{task.description}"),
-            BarColumn(),
-            TextColumn("{task.fields[words]}"),
-            TimeElapsedColumn(),
-            console=console,
-            transient=True,
-            refresh_per_second=2,
-        )
+        self._bars = bars(console)
         self._task = self._bars.add_task(name, total=None, words="starting")
 
     def __enter__(self) -> "CampaignProgress":

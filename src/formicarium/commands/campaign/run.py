@@ -4,16 +4,16 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from formicarium.commands.campaign.options import Settings, Switch
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings, Switch
 from formicarium.commands.whole import Whole
 
 
 def run(
-    design: str,
+    design: DesignFile,
     /,
     *,
-    out: str | None = None,
-    runs: Whole | None = None,
+    out: Out = None,
+    runs: Runs = None,
     set_: Settings = None,
     workers: Whole | None = None,
     dask: str | None = None,
@@ -29,7 +29,7 @@ def run(
     Several of these commands may work on one folder at once: they share the
     runs. Results do not depend on how many there are, nor on --workers.
 
-    Examples:
+    For example:
 
         formicarium campaign run study.toml
         formicarium campaign run study.toml --runs 100 --workers 4
@@ -38,14 +38,6 @@ def run(
 
     Parameters
     ----------
-    design
-        File of the design: .toml, .yaml or .py
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates; more of them only add.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
     workers
         Processes that share the runs; one a core if not given.
     dask

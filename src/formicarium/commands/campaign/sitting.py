@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shlex
 import signal
 import sys
 import threading
@@ -40,7 +41,7 @@ class Request(NamedTuple):
 
 
 def perform(study: Study, request: Request) -> int:
-    """Run what the campaign lacks and return the exit code: 0 if every run is done, 1 if some failed.
+    """Run what the campaign lacks and return the exit code: 0 if every run is done, 1 if not.
 
     Raises:
         UserError: if the request makes no sense.
@@ -51,7 +52,8 @@ def perform(study: Study, request: Request) -> int:
     share = _share(request.share)
     ledger = Ledger(study.folder)
     with terminable(), Writer(ledger, study.manifest, study.jobs) as writer:
-        forgotten = writer.forget_failures(key for job in study.jobs for key in job.keys) if request.retry else 0
+        keys = [key for job in study.jobs for key in job.keys][share[0] :: share[1]]
+        forgotten = writer.forget_failures(keys) if request.retry else 0
         writer.note_session({**session(sys.argv, PACKAGE, LIBRARIES), "retried": forgotten})
         trouble = Console(stderr=True)
         crew = _crew(study, request)
@@ -67,7 +69,7 @@ def perform(study: Study, request: Request) -> int:
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(_interrupted(study, ledger)) from None
         _print(study, report)
-        return 1 if report.standing.failed else 0
+        return 0 if report.standing.done == report.standing.total else 1
 
 
 def _check(request: Request) -> None:
@@ -118,12 +120,12 @@ def offer_script(study: Study, overrides: Overrides, request: Request, tasks: in
         raise UserError("--sbatch: only together with --slurm-array")
     if request.dask is not None or request.share is not None:
         raise UserError("--slurm-array: not together with --dask or --share")
-    more = ["--time-limit", f"{request.time_limit:g}"] if request.time_limit is not None else []
+    more = ["--time-limit", str(request.time_limit)] if request.time_limit is not None else []
     more += ["--retry"] if request.retry else []
     script = write_script(study, overrides, tasks, request.workers or 1, more, sbatch)
     console = Console()
     console.print(f"written   {script}", highlight=False, soft_wrap=True)
-    console.print(f"submit    sbatch {script}", highlight=False, soft_wrap=True)
+    console.print(f"submit    sbatch {shlex.quote(str(script))}", highlight=False, soft_wrap=True)
     return 0
 
 
@@ -154,9 +156,8 @@ def terminable() -> Iterator[None]:
 
 
 def _interrupted(study: Study, ledger: Ledger) -> str:
-    total = sum(len(job.keys) for job in study.jobs)
     done = sum(ledger.has(key) for job in study.jobs for key in job.keys)
-    return f"interrupted: {done} of {total} runs are done and kept in {study.folder}. The same command continues."
+    return f"interrupted: {done} of {study.total} runs are done and kept in {study.folder}. The same command continues."
 
 
 def _print(study: Study, report: Report) -> None:
@@ -176,7 +177,9 @@ def _print(study: Study, report: Report) -> None:
     for note in report.notes:
         trouble.print(f"formicarium: {note}", highlight=False, soft_wrap=True, markup=False)
     for run in report.failures[:SHOWN_FAILURES]:
-        said = f"\nformicarium: the run with seed {run.seed} {run.ending}:\n{run.failure.rstrip()}"
+        cell = next(job.cell for job in study.jobs if (run.identity, run.seed) in job.keys)
+        where = f"cell {cell.number} ({cell.label}), seed {run.seed}"
+        said = f"\nformicarium: {run.ending}: {where}\n{run.failure.rstrip()}"
         trouble.print(said, highlight=False, soft_wrap=True, markup=False)
     if standing.failed:
         trouble.print(

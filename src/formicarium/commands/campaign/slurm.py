@@ -13,12 +13,12 @@ SCRIPT = """#!/bin/bash
 #SBATCH --job-name={name}
 #SBATCH --array=0-{last}
 #SBATCH --cpus-per-task={workers}
-#SBATCH --output={folder}/slurm/%A_%a.log
+#SBATCH --output="{folder}/slurm/%A_%a.log"
 {options}
 # Written by: formicarium campaign run --slurm-array {tasks}
 # Submit with: sbatch {script}
-# Task k runs every {tasks}th run of the design, beginning with run k. Submit it again if tasks were lost: what is
-# done is not repeated.
+# Task k does runs k, k + {tasks}, k + 2 * {tasks}, ... of the design. Submit it again if tasks were lost: what is done
+# is not repeated.
 cd {here}
 exec {command} --share "$SLURM_ARRAY_TASK_ID/{tasks}"
 """
@@ -48,9 +48,7 @@ def write_script(
             raise UserError(f"--sbatch {option!r}: expected an option of sbatch, for example --sbatch=--time=01:00:00")
     folder = study.folder.resolve()
     words = [sys.executable, "-m", "formicarium.commands.main", "campaign", "run", str(Path(study.source).resolve())]
-    words += ["--out", str(folder), "--workers", str(workers)]
-    words += ["--runs", str(overrides.runs)] if overrides.runs is not None else []
-    words += [word for setting in overrides.settings for word in ("--set", setting)]
+    words += ["--out", str(folder), "--workers", str(workers), *overrides.words]
     script = folder / "slurm.sh"
     text = SCRIPT.format(
         name=study.design.name,
@@ -59,7 +57,7 @@ def write_script(
         folder=folder,
         options="".join(f"#SBATCH {option}\n" for option in sbatch),
         tasks=tasks,
-        script=script,
+        script=shlex.quote(str(script)),
         here=shlex.quote(str(Path.cwd())),
         command=shlex.join([*words, *more]),
     )

@@ -1,14 +1,14 @@
 """How far every cell of a campaign is, and what the folder holds besides."""
 
-import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from rich.table import Table
 
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.ledger import Ledger
+from formicarium.commands.campaign.earlier import earlier
 from formicarium.commands.campaign.study import Study, factor_names
 
 
@@ -19,47 +19,42 @@ class CellStanding(NamedTuple):
     done: int
     failed: int
     missing: int
-    outdated: int  # rows of the same parameters that other sources made; they do not count
+    outdated: int  # rows that other sources made; they do not count
 
 
 def standing_of(study: Study, ledger: Ledger) -> list[CellStanding]:
     """Count the runs of every cell; the ledger has been refreshed."""
     failures = ledger.failures()
-    configurations = ledger.configurations()
     rows = Counter(identity for identity, _ in ledger.done)
-    outdated: Counter[str] = Counter()
-    for identity, content in configurations.items():
-        outdated[_parameters(content)] += rows[identity]
+    outdated: Counter[int] = Counter()
+    for identity, job in earlier(study.jobs, ledger).items():
+        outdated[job.cell.number] += rows[identity]
     found = []
     for job in study.jobs:
         keys = job.keys
         done = sum(ledger.has(key, study.design.keep) for key in keys)
         failed = sum(key in failures and not ledger.has(key, study.design.keep) for key in keys)
-        known = job.configuration.identity in configurations
-        own = rows[job.configuration.identity] if known else 0
-        other = outdated[_parameters(job.configuration.content())] - own
-        found.append(CellStanding(job, done, failed, len(keys) - done - failed, other))
+        found.append(CellStanding(job, done, failed, len(keys) - done - failed, outdated[job.cell.number]))
     return found
 
 
 def other_rows(study: Study, ledger: Ledger) -> Mapping[str, int]:
     """Return how many rows of the ledger belong to no cell of the design, by the reason in words."""
-    configurations = ledger.configurations()
+    makers = {identity: content.get("sources") for identity, content in ledger.configurations().items()}
     wanted = {job.configuration.identity: set(job.cell.seeds) for job in study.jobs}
-    parameters = {_parameters(job.configuration.content()) for job in study.jobs}
+    today = {job.configuration.sources for job in study.jobs}
+    others = earlier(study.jobs, ledger)
     found: Counter[str] = Counter()
     for identity, seed in ledger.done:
         if identity in wanted:
             found["of seeds that are not in the design"] += seed not in wanted[identity]
-        elif identity in configurations and _parameters(configurations[identity]) in parameters:
-            found[f"made by other sources (--sources {configurations[identity]['sources']})"] += 1
+        elif identity in others:
+            found[f"made by other sources (--sources {makers[identity]})"] += 1
+        elif identity in makers and makers[identity] not in today:
+            found[f"of other parameters, made by other sources ({makers[identity]})"] += 1
         else:
             found["of cells that are not in the design"] += 1
     return {reason: count for reason, count in sorted(found.items()) if count}
-
-
-def _parameters(content: Mapping[str, Any]) -> str:
-    return json.dumps([content.get("system"), content.get("parameters")], sort_keys=True)
 
 
 def cells_table(study: Study, cells: Sequence[CellStanding], seeds: bool = False) -> Table:

@@ -1,40 +1,26 @@
 """``formicarium campaign status DESIGN``: how far it is."""
 
-from formicarium.commands.campaign.options import Settings
-from formicarium.commands.whole import Whole
+from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings, Sources
 
 SHOWN_FAILURES = 5
 
 
 def status(
-    design: str,
+    design: DesignFile,
     /,
     *,
-    out: str | None = None,
-    runs: Whole | None = None,
+    out: Out = None,
+    runs: Runs = None,
     set_: Settings = None,
-    sources: str | None = None,
+    sources: Sources = None,
 ) -> int:
     """Show how far a campaign is, what failed and why; works while it runs, from any terminal.
 
     Exit code 0 if every run of the design is done, 1 if not.
 
-    Examples:
+    For example:
 
         formicarium campaign status study.toml
-
-    Parameters
-    ----------
-    design
-        File of the design: .toml, .yaml or .py
-    out
-        Folder of the campaign; formicarium-results/NAME if not given.
-    runs
-        Runs of each cell, instead of the design's replicates.
-    set_
-        Change a parameter in all cells: NAME=VALUE, as often as needed.
-    sources
-        Count rows that these sources made (a hash, as in the rows) instead of today's.
     """
     from formicarium.campaigns import claims
     from formicarium.campaigns.ledger import Ledger
@@ -47,15 +33,12 @@ def status(
     ledger.refresh()
     console = wide_console()
     cells = standing_of(study, ledger)
-    total = sum(len(job.keys) for job in study.jobs)
     done, failed = sum(cell.done for cell in cells), sum(cell.failed for cell in cells)
     working = claims.writers(study.folder / "writers")
 
-    say(
-        console,
-        f"{study.design.name}: {done} of {total} runs done, {failed} failed, {total - done - failed} missing; "
-        + (f"{working} at work on it now" if working else "nobody is at work on it"),
-    )
+    counts = f"{done} of {study.total} runs done, {failed} failed, {study.total - done - failed} missing"
+    now = f"{working} at work on it now" if working else "nobody is at work on it"
+    say(console, f"{study.design.name}: {counts}; {now}")
     console.print(cells_table(study, cells))
     others = other_rows(study, ledger)
     for reason, count in others.items():
@@ -75,4 +58,4 @@ def status(
         say(console, f"failed    cell {job.cell.number}, seed {key[1]}: {last[0]} (see {ledger.failure_path(key)})")
     if len(shown) > SHOWN_FAILURES:
         say(console, f"          and {len(shown) - SHOWN_FAILURES} more in {study.folder / 'failures'}")
-    return 0 if done == total else 1
+    return 0 if done == study.total else 1

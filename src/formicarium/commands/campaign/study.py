@@ -10,6 +10,9 @@ from pydantic import ValidationError
 from formicarium.campaigns.cells import Cell, Job, cells_of, check_distinct
 from formicarium.campaigns.design import Design, make_design
 from formicarium.campaigns.design_file import read_content
+from formicarium.campaigns.errors import DesignError
+from formicarium.campaigns.ledger import Ledger
+from formicarium.commands.campaign.earlier import made_by
 from formicarium.commands.errors import UserError
 from formicarium.commands.fields import find_field, in_words, parted, typed_value, value_of_text, with_values
 from formicarium.commands.known import find_system
@@ -27,6 +30,12 @@ class Overrides(NamedTuple):
     settings: tuple[str, ...] = ()  # "name=value"
     sources: str | None = None  # hash of the sources that made the rows, instead of today's
 
+    @property
+    def words(self) -> list[str]:
+        """What decides which runs are meant, as it is typed."""
+        runs = ["--runs", str(self.runs)] if self.runs is not None else []
+        return runs + [word for setting in self.settings for word in ("--set", setting)]
+
 
 AS_DESIGNED = Overrides()
 
@@ -40,6 +49,11 @@ class Study(NamedTuple):
     jobs: list[Job]
     folder: Path
     options: str = ""  # of the command line that other verbs need too, to mean the same runs
+
+    @property
+    def total(self) -> int:
+        """Runs of all cells."""
+        return sum(len(job.cell.seeds) for job in self.jobs)
 
     @property
     def manifest(self) -> dict[str, Any]:
@@ -65,26 +79,29 @@ def study_of(content: Mapping[str, Any], source: str, out: str | None, overrides
     if unknown := [name for name in design.keep if name not in KEPT]:
         raise UserError(f"{source}: keep = {unknown[0]!r}: must be among {', '.join(KEPT)}")
     _check_names(design, system, source)
-    jobs = []
-    for cell in cells_of(design):
-        parameters = _parameters(cell, design, system, source)
-        configuration = configuration_of(system, parameters)
-        if overrides.sources is not None:
-            configuration = configuration._replace(sources=overrides.sources)
-        function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
-        jobs.append(Job(cell, configuration, function))
-    check_distinct(jobs)
+    try:
+        jobs = [_job(cell, design, system, source) for cell in cells_of(design)]
+        check_distinct(jobs)
+    except DesignError as error:
+        raise DesignError(f"{source}: {error}") from error
     if out == "":
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
     folder = Path(out or f"formicarium-results/{design.name}")
+    if overrides.sources is not None:
+        jobs = made_by(overrides.sources, jobs, Ledger(folder))
     return Study(source, design, system, jobs, folder, _options(out, overrides))
+
+
+def _job(cell: Cell, design: Design, system: System, source: str) -> Job:
+    parameters = _parameters(cell, system, source)
+    configuration = configuration_of(system, parameters)
+    function = row_function(design.system, parameters, configuration.sources, tuple(design.keep))
+    return Job(cell, configuration, function)
 
 
 def _options(out: str | None, overrides: Overrides) -> str:
     words = ["--out", out] if out else []
-    words += ["--runs", str(overrides.runs)] if overrides.runs is not None else []
-    words += [word for setting in overrides.settings for word in ("--set", setting)]
-    return "".join(f" {shlex.quote(word)}" for word in words)
+    return "".join(f" {shlex.quote(word)}" for word in words + overrides.words)
 
 
 def _system(design: Design, source: str) -> System:
@@ -135,8 +152,8 @@ def _check_names(design: Design, system: System, source: str) -> None:
                 raise UserError(f"{said}: is the same parameter as {paths[path]!r}")
 
 
-def _parameters(cell: Cell, design: Design, system: System, source: str) -> Any:
-    values: dict[str, Any] = {**design.fixed, **cell.factors}
+def _parameters(cell: Cell, system: System, source: str) -> Any:
+    values = dict(cell.said)
     where = f"{source}: cell {cell.number} ({cell.label})" if cell.factors else source
     arguments = {name: values.pop(name, None) for name in ARGUMENTS}
     for name, value in arguments.items():

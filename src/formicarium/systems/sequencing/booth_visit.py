@@ -5,10 +5,11 @@ import math
 from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer, stop
 from formicarium.control.odometry import bearing_to, distance_to
-from formicarium.robots.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, SUCCESS
+from formicarium.robots.infrared import CLAIM, FAILURE, HEARD_HIGH, HIGH_HALF, LOW_HALF, NOTED, SUCCESS
 from formicarium.robots.records import SILENCE, Colour
 from formicarium.systems.sequencing.following import presses_member
 from formicarium.systems.sequencing.guardian import become_guardian
+from formicarium.systems.sequencing.guardian_ii import become_guardian_ii
 from formicarium.systems.sequencing.memory import State, enter
 from formicarium.systems.sequencing.perception import locate_lights, nearest_blob
 
@@ -108,14 +109,43 @@ def take_verdict(memory, cycle, success, table):
 
 
 @compiled
+def take_note(memory, cycle, byte, table):
+    """Learn what a booth of delayed feedback has to say (TS-104, U55): to count on, or the verdict on a sequence.
+
+    The verdict is reported to the guardian of the last task, with the M4PI of the permutation that was tried. A
+    failure before the last task says that the coordinator's record is another one: nothing to report.
+    """
+    memory.verdict = 1 if byte == SUCCESS else 0
+    memory.verdict_heard = cycle
+    memory.last_success = memory.colour if byte != FAILURE else 0
+    if memory.candidate == 1:
+        memory.verdict = 0  # its own first task is no part of a sequence
+    elif byte == NOTED:
+        memory.count += 1
+    else:
+        memory.notifying = 1 if memory.count + 1 == table.tasks else 0
+        memory.reported = memory.step
+        memory.count = 0
+
+
+@compiled
+def is_done(memory):
+    """Tell whether the booth has said that the task is done."""
+    return memory.exchange == SUCCESS or memory.exchange == FAILURE or memory.exchange == NOTED
+
+
+@compiled
 def exchange(reading, memory, command, table):
     """Wait in the bay for the verdict, answering the booth's bytes."""
     cycle = reading.cycle
     if reading.infrared != SILENCE:
         memory.exchange = reading.infrared
     command.infrared = next_byte(memory, reading.identity)
-    if memory.exchange == SUCCESS or memory.exchange == FAILURE:
-        take_verdict(memory, cycle, memory.exchange == SUCCESS, table)
+    if is_done(memory):
+        if table.mark == 2:
+            take_note(memory, cycle, memory.exchange, table)
+        else:
+            take_verdict(memory, cycle, memory.exchange == SUCCESS, table)
         turn_round(memory, cycle)
     elif cycle - memory.since > table.exchange_patience:
         memory.exchange = SILENCE
@@ -130,8 +160,8 @@ def turning_round(reading, memory, command, table, epuck):
         drive(command, 0.0, table.turn_rate, epuck.wheel_distance)
         return
     memory.target.known = 0  # until the lights come on behind the robot
-    done = memory.exchange == SUCCESS or memory.exchange == FAILURE
-    enter(memory, State.STAND_OFF if done and memory.candidate == 1 else State.LEAVE, reading.cycle)
+    guards = memory.candidate == 1 and is_done(memory)
+    enter(memory, State.STAND_OFF if guards else State.LEAVE, reading.cycle)
 
 
 @compiled
@@ -178,7 +208,10 @@ def stand_off(reading, memory, command, table, epuck):
         return
     out = drive_out(reading, memory, command, table, epuck)
     if out >= table.exit_distance or cycle - memory.since > table.exit_patience:
-        become_guardian(memory, cycle, memory.verdict == 1, memory.count + 1)
+        if table.mark == 2:
+            become_guardian_ii(memory, reading.identity, cycle)
+        else:
+            become_guardian(memory, cycle, memory.verdict == 1, memory.count + 1)
 
 
 @compiled

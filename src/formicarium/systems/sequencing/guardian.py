@@ -60,6 +60,16 @@ def qualifies(count, condition, confident):
 
 
 @compiled
+def note_inhibition(reading, memory, n, table):
+    """Note the inhibition in the n-th packet, if there is one, to repeat it (TS-64)."""
+    message = memory.heard[n]
+    if message.inhibit == 1 and message.guardian == 0 and reading.packets[n].distance < table.inhibition_distance:
+        if reading.cycle > memory.echo_until or message.identity == memory.echoed:
+            memory.echoed = message.identity
+            memory.echo_until = reading.cycle + table.inhibition_echo
+
+
+@compiled
 def hear_runners(reading, memory, table):
     """Take in notifications of runners nearby and note whose inhibition to repeat."""
     for n in range(reading.packet_count):
@@ -70,10 +80,7 @@ def hear_runners(reading, memory, table):
             update_condition(memory, message.direction == 1, message.count, table)
             if memory.condition * 2 + memory.confident != before:
                 memory.notified_by = message.identity
-        if message.inhibit == 1 and message.guardian == 0 and reading.packets[n].distance < table.inhibition_distance:
-            if reading.cycle > memory.echo_until or message.identity == memory.echoed:
-                memory.echoed = message.identity
-                memory.echo_until = reading.cycle + table.inhibition_echo
+        note_inhibition(reading, memory, n, table)
 
 
 @compiled
@@ -133,9 +140,9 @@ def speak(reading, memory, command, table):
         message.inhibit = 1
         message.identity = memory.echoed
     if memory.tail == 1 and memory.state == State.OPEN:
-        send_invitation(memory, command, right_hand(memory), table.sector_half_width)
+        send_invitation(memory, command, right_hand(memory), table)
     else:
-        send(memory, command)
+        send(memory, command, table)
 
 
 @compiled

@@ -10,6 +10,7 @@ from formicarium.robots.records import Colour
 from formicarium.systems.sequencing.member import begin_message, distance_error, send
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.perception import track_neighbours
+from formicarium.systems.sequencing.ring import is_word_of, repeat
 
 ALIGNED = 1e-9  # a sum of unit vectors shorter than this has no direction
 
@@ -113,13 +114,32 @@ def hear_established(reading, memory):
 
 
 @compiled
-def speak(reading, memory, command):
-    """Broadcast place, branch and whether it is established (TS-71)."""
+def hear_successor(reading, memory):
+    """Learn from the successor, known by its identity, that the branch is established; then repeat its words (U51)."""
+    for n in range(reading.packet_count):
+        message = memory.heard[n]
+        if message.established == 1 and is_word_of(message, memory.chosen):
+            if memory.established == 0:
+                memory.established = 1
+                enter(memory, State.STAY, reading.cycle)
+            repeat(memory.ring, message)
+
+
+@compiled
+def speak(reading, memory, command, table):
+    """Broadcast place, branch and whether it is established (TS-71); once it is, the words of the loop too."""
     begin_message(memory, reading.identity)
-    memory.message.branch = memory.branch
-    memory.message.link_number = memory.link_number
-    memory.message.established = memory.established
-    send(memory, command)
+    message = memory.message
+    message.branch = memory.branch
+    message.link_number = memory.link_number
+    message.established = memory.established
+    message.source = memory.branch
+    if memory.established == 1:
+        message.election = memory.ring.election
+        message.number = memory.ring.number
+        message.report = memory.ring.solved
+        message.source = memory.ring.source
+    send(memory, command, table)
 
 
 @compiled
@@ -131,7 +151,9 @@ def link(reading, memory, command, table, epuck):
         cycle = reading.cycle
         if in_view(memory.predecessor, cycle, table) and in_view(memory.successor, cycle, table):
             adjust(memory, command, table, cycle, epuck.wheel_distance)
-        if hear_established(reading, memory):
+        if table.mark == 1 and hear_established(reading, memory):
             memory.established = 1
             enter(memory, State.STAY, cycle)
-    speak(reading, memory, command)
+    if table.mark == 2:
+        hear_successor(reading, memory)
+    speak(reading, memory, command, table)

@@ -1,6 +1,5 @@
 """What is measured in a sequencing trial: events as they happen, one outcome row at the end (TS-136 to TS-138)."""
 
-from enum import IntEnum
 from typing import Any
 
 import numpy as np
@@ -8,59 +7,20 @@ import numpy as np
 from formicarium.compiled import compiled
 from formicarium.devices.booth import BAY_END, BAY_HALF_WIDTH, HALF
 from formicarium.observers.referee import executed, locate
-from formicarium.robots.infrared import SUCCESS
+from formicarium.robots.infrared import NOTED, SUCCESS
+from formicarium.systems.sequencing.log import EventKind
 from formicarium.systems.sequencing.memory import Role
+from formicarium.systems.sequencing.ring_measures import (
+    founded,
+    note_loop,
+    note_mixed,
+    note_ring,
+    ring_cause,
+    ring_outcome,
+)
 from formicarium.trial.events import write_event
 
 DISPLACED = 0.06  # m, a chain member pushed this far from where it settled is logged once
-
-
-class EventKind(IntEnum):
-    """What the log tells; ``robot`` is always the identity of the robot concerned, 0 for none."""
-
-    ROLE = 0  # subject: task colour (guardian) or branch (tail, link); value: new role; detail: old role
-    VISIT = 1  # subject: booth's colour; value: 1 came in, 0 went out
-    EXECUTED = 2  # subject: task colour; value: 1 success, 0 failure; detail: claimed task number
-    SEQUENCE = 3  # value: how many correct sequences the swarm has done
-    CONDITION = 4  # subject: task colour; value: CND; detail: CONF of its guardian
-    BRANCH = 5  # subject: branch that reached its guardian; value: its links
-    CHAIN = 6  # all branches established; value: guardians + links + tails
-    DISPLACED = 7  # a settled chain member was pushed off; subject: as in ROLE; value: role
-    DIED = 8  # value: role
-    NO_ANSWER = 9  # a visit whose infrared exchange failed; subject: booth's colour
-    PROTOCOL_FAULT = 10  # the coordinator's record and a claim disagreed; subject: colour; value: claim
-    DISAGREEMENT = 11  # referee and booth disagree about an execution; subject: colour
-    UNFOUNDED = 12  # a guardian learnt from a runner that did not do its task last; subject: colour
-    STATE = 13  # value: new state; detail: old state (on request)
-    MESSAGE = 14  # subject: bytes as one number; value: mask of emitters (on request)
-
-
-# What the chain monitor knows of each robot since the last cycle.
-MEMBER = np.dtype(
-    [
-        ("role", "i8"),
-        ("state", "i8"),
-        ("established", "i8"),
-        ("condition", "i8"),
-        ("confident", "i8"),
-        ("settled", "i8"),  # 1 while its place below is the one to keep
-        ("x", "f8"),  # m
-        ("y", "f8"),
-        ("dead", "i8"),
-    ],
-    align=True,
-)
-
-CHAIN = np.dtype(
-    [
-        ("sequences", "i8"),  # correct sequences by the referee
-        ("faults", "i8"),  # coordinator's faults already logged
-        ("complete", "i8"),  # cycle at which the chain was complete, 0 if not yet
-        ("members_complete", "i8"),  # chain members then
-        ("visits", "i8", 8),  # per booth: cycle at which the visit in progress began, 0 if none
-    ],
-    align=True,
-)
 
 
 @compiled
@@ -68,8 +28,30 @@ def note(state):
     """Write down what has happened in this cycle. Nothing here is seen by a robot."""
     note_tasks(state)
     note_robots(state)
+    if state.behaviour[0].mark == 2:
+        note_loop(state)
     clock = state.clock[0]
     if state.chain[0].sequences >= state.swarm[0].sequences:
+        clock.finished = 1
+    elif state.swarm[0].idle_limit > 0.0:
+        note_idleness(state)
+
+
+@compiled
+def note_idleness(state):
+    """End a trial in which nobody has been a runner for a while (TS-145).
+
+    Chain members never become runners again, so nobody will do a task any more.
+    """
+    clock = state.clock[0]
+    chain = state.chain[0]
+    chain.idle += 1
+    for i in range(len(state.robots)):
+        if state.robots[i].alive == 1 and state.memories[i].role == Role.RUNNER:
+            chain.idle = 0
+            return
+    if chain.idle * state.world.settings[0].cycle_time >= state.swarm[0].idle_limit:
+        write_event(clock, state.events, EventKind.HOPELESS, 0, 0, 0, 0)
         clock.finished = 1
 
 
@@ -105,7 +87,8 @@ def note_execution(state, b, task_cycles):
     who = state.robots[i].identity
     record = state.referee[i]
     success = booth.verdict == SUCCESS
-    write_event(clock, state.events, EventKind.EXECUTED, who, booth.colour, 1 if success else 0, booth.claim)
+    verdict = 1 if success else 2 if booth.verdict == NOTED else 0
+    write_event(clock, state.events, EventKind.EXECUTED, who, booth.colour, verdict, booth.claim)
     coordinator = state.coordinator[0]
     if coordinator.faults > chain.faults:
         chain.faults = coordinator.faults
@@ -113,6 +96,9 @@ def note_execution(state, b, task_cycles):
     present = record.booth == b and clock.cycle - record.since >= task_cycles
     complete = present and executed(record, booth.colour, coordinator.order, coordinator.tasks)
     claimed = success and booth.claim == coordinator.tasks
+    if coordinator.delayed == 1:
+        complete = complete and claimed  # in the right order by chance, across two sequences: nobody is told
+        note_mixed(state, i, booth.colour, booth.claim)
     if not present or complete != claimed:
         write_event(clock, state.events, EventKind.DISAGREEMENT, who, booth.colour, 0, 0)
     own_first = state.memories[i].candidate == 1  # a future guardian's own execution never counts (TS-137)
@@ -137,7 +123,9 @@ def note_robots(state):
         if memory.role != member.role:
             write_event(clock, state.events, EventKind.ROLE, who, subject, memory.role, member.role)
             member.settled = 0
-        if memory.role == Role.GUARDIAN:
+        if memory.role == Role.GUARDIAN and state.behaviour[0].mark == 2:
+            note_ring(state, i)
+        elif memory.role == Role.GUARDIAN:
             note_guardian(state, i)
         if memory.role == Role.GUARDIAN or (memory.role == Role.LINK and memory.established == 1):
             note_place(state, i, subject)
@@ -178,15 +166,6 @@ def note_guardian(state, i):
             write_event(clock, state.events, EventKind.CHAIN, who, 0, members, 0)
             state.chain[0].complete = clock.cycle
             state.chain[0].members_complete = members
-
-
-@compiled
-def founded(state, identity, colour):
-    """Tell whether the robot of that identity did that task last."""
-    for j in range(len(state.robots)):
-        if state.robots[j].identity == identity:
-            return state.referee[j].last == colour
-    return False
 
 
 @compiled
@@ -234,7 +213,8 @@ def packed(payload):
 def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
     """Return the row of a finished trial: what was reached when, by how many, and if it failed, why.
 
-    Times are in seconds, None if not reached.
+    Times are in seconds, None if not reached. A trial that was ended as hopeless counts as run to its cap
+    (``duration_s``), and ``hopeless_s`` tells when it was ended.
     """
     cycle_time = float(state.world.settings[0].cycle_time)
     chain = state.chain[0]
@@ -252,6 +232,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     roles = state.memories.role[state.robots.alive == 1]  # a dead member is none
     goal = int(state.swarm[0].sequences)
     success = bool(chain.sequences >= goal)
+    hopeless = time_of(EventKind.HOPELESS)
     row: dict[str, int | float | str | None] = {
         "success": int(success),
         "sequences": int(chain.sequences),
@@ -259,7 +240,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "time_1_s": time_of(EventKind.SEQUENCE, 1),
         "time_5_s": time_of(EventKind.SEQUENCE, 5),
         "time_10_s": time_of(EventKind.SEQUENCE, 10),
-        "duration_s": round(float(state.clock[0].cycle) * cycle_time, 6),
+        "duration_s": round(float(state.clock[0].last_cycle if hopeless else state.clock[0].cycle) * cycle_time, 6),
+        "hopeless_s": hopeless,
         "members_at_completion": int(chain.members_complete) if chain.complete else None,
         "members": int((roles != Role.RUNNER).sum()),
         "guardians": int((roles == Role.GUARDIAN).sum()),
@@ -277,7 +259,10 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "packets_heard": int(state.robots.packets_heard.sum()),
         "blobs_dropped": int(state.robots.blobs_dropped.sum()),
     }
-    row["cause"] = None if success else cause(row, events, len(state.robots), int(state.behaviour[0].tasks), cycle_time)
+    tasks = int(state.behaviour[0].tasks)
+    if state.behaviour[0].mark == 2:
+        row |= ring_outcome(state, events)
+    row["cause"] = None if success else cause(row, events, len(state.robots), tasks, cycle_time)
     return row
 
 
@@ -301,11 +286,14 @@ def cause(row: dict[str, Any], events: np.ndarray, robots: int, tasks: int, cycl
         changes = events[events["kind"] == EventKind.ROLE]
         if len(changes) and row["duration_s"] - float(changes["cycle"][-1]) * cycle_time < GROWING:
             return "chain still growing at the end"
-        return f"branch {row['branches'] + 1} missed its guardian"
+        return ring_cause(row, tasks) or f"branch {row['branches'] + 1} missed its guardian"
     if free <= 0:
         return "all robots in the finished chain"
-    sequences = events[events["kind"] == EventKind.SEQUENCE]
-    last = float(sequences["cycle"][-1]) * cycle_time if len(sequences) else row["time_chain_s"]
+    named = ring_cause(row, tasks)
+    if named:
+        return named
+    progress = events[np.isin(events["kind"], (EventKind.SEQUENCE, EventKind.STEP, EventKind.SOLVED))]
+    last = float(progress["cycle"][-1]) * cycle_time if len(progress) else row["time_chain_s"]
     if row["duration_s"] - last < STALLED:
         return "too slow"
     moved = events[events["kind"] == EventKind.DISPLACED]

@@ -8,6 +8,7 @@ from formicarium.compiled import compiled
 from formicarium.control.odometry import ODOMETER, TRACK
 from formicarium.robots.records import PACKETS
 from formicarium.systems.sequencing.messages import MESSAGE
+from formicarium.systems.sequencing.ring import RING
 
 COLOURS = 5  # task colours are 1..4; place 0 stays empty
 NEVER = -1_000_000  # cycle long before the trial
@@ -59,6 +60,8 @@ ADVERT = np.dtype(
         ("tail", "i8"),
         ("count", "i8"),  # CND
         ("confident", "i8"),
+        ("number", "i8"),  # M4PI (Mark II)
+        ("solved", "i8"),  # (Mark II)
     ],
     align=True,
 )
@@ -92,22 +95,28 @@ MEMORY = np.dtype(
         ("exchange", "i8"),  # last byte heard from the booth
         ("retries", "i8"),
         ("verdict", "i8"),  # 1 success, 0 failure of the last task
-        ("reported", "i8"),  # CNT that goes into the notification
+        ("reported", "i8"),  # CNT that goes into the notification; in Mark II M4PI
         ("notifying", "i8"),  # 1 while a notification is due
         ("verdict_heard", "i8"),  # cycle
         ("last_success", "i8"),  # colour of the task just done with success
+        ("invited_by", "i8"),  # branch whose tail invited it last
+        ("step", "i8"),  # M4PI of the permutation that it is trying (Mark II)
+        ("step_heard", "i8"),  # cycle at which a guardian said that M4PI last
         ("inhibiting_until", "i8"),  # cycle; sends inhibitions until then
         ("refuse_until", "i8"),  # cycle; ignores invitations until then
         ("abstain_until", "i8"),  # cycle; begins no visit until then
         ("wander_until", "i8"),  # cycle; ignores chain and inhibition until then
         # chain member
-        ("branch", "i8"),  # BRN
+        ("branch", "i8"),  # BRN; in Mark II the identity of the guardian that the branch starts from
         ("link_number", "i8"),  # LNK_NO
         ("established", "i8"),  # EST
         ("predecessor", TRACK),
         ("successor", TRACK),
         ("sector", "f8"),  # rad, middle of the sector invited last
         ("chosen", "i8"),  # identity of the runner, or guardian, chosen as successor
+        ("stranger_heard", "i8"),  # cycle at which the tail of another branch was heard last (Mark II)
+        ("asked", "i8"),  # identity of the guardian that this tail has asked last to take over (Mark II)
+        ("ring", RING),  # of the closed loop (Mark II)
         ("requested", "i8"),  # cycle of the last request, or of the last sweep
         ("sweep_due", "i8"),  # cycles after ``requested`` at which to sweep
         ("settled", "i8"),  # cycle since which it is in place

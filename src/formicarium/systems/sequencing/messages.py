@@ -34,6 +34,11 @@ MESSAGE = np.dtype(
         ("count", "i8"),
         ("colour", "i8"),
         ("guardian", "i8"),
+        # of Mark II alone, 0 in Mark I (messages_ii.py)
+        ("number", "i8"),
+        ("report", "i8"),
+        ("election", "i8"),
+        ("source", "i8"),
     ],
     align=True,
 )
@@ -89,6 +94,10 @@ def clear(message):
     message.count = 0
     message.colour = 0
     message.guardian = 0
+    message.number = 0
+    message.report = 0
+    message.election = 0
+    message.source = 0
 
 
 @compiled

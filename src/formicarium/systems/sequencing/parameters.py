@@ -5,7 +5,7 @@ U.., TS-..: numbered choices where the paper is silent. [tuned]: found by calibr
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -52,6 +52,14 @@ class SwarmTable(Table):
     robots: int = number(20, "1", "N [paper, Table 1]", ge=1, le=255)
     time_cap: float = number(2400.0, "s", "TC, the trial ends here at the latest [paper, Table 1]", gt=0, le=1e6)
     sequences: int = number(10, "1", "the trial ends when so many are complete [paper]", ge=1, le=100_000)
+    idle_limit: float = number(
+        0.0,
+        "s",
+        "a trial in which nobody has been a runner for so long is ended and counts as run to its cap: chain members "
+        "stay what they are, so nobody will do a task any more; 0: never [TS-145]",
+        ge=0,
+        le=1e6,
+    )
     failure_rate: float = number(
         0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0, le=10
     )
@@ -74,6 +82,13 @@ class BehaviourTable(Table):
     """The controller's numbers: the same for every robot, variant and setting (TS-3)."""
 
     tasks: int = number(3, "1", "m, how far the robots count [paper]", ge=2, le=4)
+    mark: int = number(
+        1,
+        "1",
+        "I: every task gets a verdict, guardians learn; II: only a sequence does, they search [paper]",
+        ge=1,
+        le=2,
+    )
 
     # random walk
     walk_speed: float = number(0.08, "m/s", "U2", gt=0)
@@ -135,6 +150,10 @@ class BehaviourTable(Table):
     notify_least: int = number(30, "cycles", "and at least so long U54", ge=0)
     notification_gate: float = number(0.45, "m", "a guardian hears notifications within this [choice, T15]", gt=0)
 
+    step_memory: int = number(
+        3000, "cycles", "a runner that has not met its M4PI for so long starts its sequence again TS-128", ge=1
+    )
+
     # inhibition
     inhibition_distance: float = number(0.40, "m", "TS-106", ge=0)
     inhibition_ahead: float = number(
@@ -183,6 +202,12 @@ class BehaviourTable(Table):
     )
     track_gain: float = number(0.35, "1", "share of the new sighting in a neighbour's place [probe]", gt=0, le=1)
     track_refind: int = number(5, "cycles", "a neighbour unseen so long is looked for by its packets [probe]", ge=1)
+    light_patience: int = number(
+        10,
+        "cycles",
+        "Mark II: so long without an answer or another branch's tail, then a light ends an offer [choice, C18]",
+        ge=0,
+    )
     track_lost: int = number(
         20, "cycles", "a link that has not seen a neighbour for so long stands still [choice]", ge=1
     )
@@ -208,6 +233,9 @@ class BehaviourTable(Table):
     sweep_speed: float = number(0.025, "m/s", "U13", gt=0)
     dock_ahead: float = number(degrees(100), "rad", "a guardian counts within this of the branch direction TS-86", gt=0)
     dock_gaps: float = number(0.40, "m", "if both gaps add up to more, recruit one more U21", gt=0)
+    pull_patience: int = number(
+        50, "cycles", "Mark II: for so long it pulls the branch forward before it recruits [choice, TS-87]", ge=0
+    )
     dock_band: float = number(0.03, "m", "tolerance of the gaps while docking: twice the camera's noise [choice]", gt=0)
     dock_hold: int = number(10, "cycles", "aligned so long, then it hands over U20", ge=0)
     dock_patience: int = number(200, "cycles", "or it hands over anyway [probe]", ge=1)
@@ -236,11 +264,13 @@ class SequencingParameters(BaseModel):
 
     @model_validator(mode="after")
     def same_tasks(self) -> "SequencingParameters":
-        """Let the robots count as far as there are booths."""
+        """Let the robots count as far as there are booths and expect the feedback that the booths give."""
         if self.behaviour.tasks != self.arena.tasks:
             raise ValueError(
                 f"behaviour.tasks is {self.behaviour.tasks} but arena.tasks is {self.arena.tasks}: they must be equal"
             )
+        if self.booth.delayed_feedback != (self.behaviour.mark == 2):
+            raise ValueError("booth.delayed_feedback goes with behaviour.mark 2, and only with it")
         return self
 
     @model_validator(mode="after")
@@ -257,17 +287,38 @@ class SequencingParameters(BaseModel):
         return self
 
 
-# Table 1 of the paper: settings 0..4 of Mark I3. Side = base * sqrt(2)^k unrounded (TS-34); robots and time
-# cap as printed (contradiction C2).
+class Variant(NamedTuple):
+    """What tells the paper's four systems apart, and their settings 0..4 (Table 1).
+
+    Side = base * sqrt(2)^k unrounded (TS-34); robots and time caps as printed (contradiction C2).
+    """
+
+    name: str
+    tasks: int
+    mark: int  # 1: every task gets a verdict; 2: only a whole sequence does
+    side: float  # m, of the smallest arena
+    robots: tuple[int, ...]
+    time_caps: tuple[float, ...]  # s
+
+
+HEXAGON_SIDE = 0.9
+OCTAGON_SIDE = 0.66
+LONG = (100_000.0,) * 5
 MARK_I3_ROBOTS = (20, 28, 40, 57, 80)
 MARK_I3_TIME_CAPS = (2400.0, 3400.0, 4800.0, 6800.0, 9600.0)
-HEXAGON_SIDE = 0.9
+MARK_I3 = Variant("mark-i3", 3, 1, HEXAGON_SIDE, MARK_I3_ROBOTS, MARK_I3_TIME_CAPS)
+MARK_I4 = Variant("mark-i4", 4, 1, OCTAGON_SIDE, (22, 31, 44, 62, 88), LONG)
+MARK_II3 = Variant("mark-ii3", 3, 2, HEXAGON_SIDE, (25, 35, 50, 70, 100), LONG)
+MARK_II4 = Variant("mark-ii4", 4, 2, OCTAGON_SIDE, (27, 38, 54, 76, 108), LONG)
 
 
-def mark_i3_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
-    """Return the parameters of Mark I3 in one of the paper's settings.
+def configured(
+    variant: Variant, setting: int | None = None, robots: int | None = None, **groups: Any
+) -> SequencingParameters:
+    """Return the parameters of a variant in one of the paper's settings.
 
     Args:
+        variant: one of the four.
         setting: 0..4, the row of Table 1; each doubles the area. None means 0.
         robots: number of robots; None means the paper's default for the setting.
         groups: fields to change, by group: ``behaviour={"spacing": 0.15}``.
@@ -276,11 +327,36 @@ def mark_i3_parameters(setting: int | None = None, robots: int | None = None, **
         ValueError: if a number is out of bounds or the setting does not exist.
     """
     k = 0 if setting is None else setting
-    if k not in range(len(MARK_I3_ROBOTS)):
-        raise ValueError(f"setting {setting} does not exist: mark-i3 has settings 0 to {len(MARK_I3_ROBOTS) - 1}")
-    arena = {"side": HEXAGON_SIDE * math.sqrt(2.0) ** k}
-    swarm = {"robots": MARK_I3_ROBOTS[k] if robots is None else robots, "time_cap": MARK_I3_TIME_CAPS[k]}
-    tables = {"arena": arena, "swarm": swarm}
+    if k not in range(len(variant.robots)):
+        raise ValueError(
+            f"setting {setting} does not exist: {variant.name} has settings 0 to {len(variant.robots) - 1}"
+        )
+    tables: dict[str, dict[str, Any]] = {
+        "arena": {"tasks": variant.tasks, "sides": 2 * variant.tasks, "side": variant.side * math.sqrt(2.0) ** k},
+        "swarm": {"robots": variant.robots[k] if robots is None else robots, "time_cap": variant.time_caps[k]},
+        "booth": {"delayed_feedback": variant.mark == 2},
+        "behaviour": {"tasks": variant.tasks, "mark": variant.mark},
+    }
     for group, fields in groups.items():
         tables[group] = {**tables.get(group, {}), **fields}
     return SequencingParameters.model_validate(tables)
+
+
+def mark_i3_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
+    """Return the parameters of Mark I3, as ``configured`` does."""
+    return configured(MARK_I3, setting, robots, **groups)
+
+
+def mark_i4_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
+    """Return the parameters of Mark I4, as ``configured`` does."""
+    return configured(MARK_I4, setting, robots, **groups)
+
+
+def mark_ii3_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
+    """Return the parameters of Mark II3, as ``configured`` does."""
+    return configured(MARK_II3, setting, robots, **groups)
+
+
+def mark_ii4_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> SequencingParameters:
+    """Return the parameters of Mark II4, as ``configured`` does."""
+    return configured(MARK_II4, setting, robots, **groups)

@@ -8,6 +8,7 @@ from formicarium.control.odometry import carry, measure, place
 from formicarium.robots.records import Colour
 from formicarium.systems.sequencing.memory import COLOURS
 from formicarium.systems.sequencing.messages import decode, from_runner
+from formicarium.systems.sequencing.messages_ii import decode_ii
 
 ADVERT_GAIN = 0.3  # share of a new packet in the remembered bearing of a guardian
 
@@ -27,7 +28,10 @@ def perceive(reading, memory, table, epuck):
     for n in range(reading.packet_count):
         packet = reading.packets[n]
         message = memory.heard[n]
-        decode(packet.payload, message)
+        if table.mark == 2:
+            decode_ii(packet.payload, message)
+        else:
+            decode(packet.payload, message)
         if message.guardian == 1 and 0 < message.colour < COLOURS:
             keep_advert(memory.adverts[message.colour], message, packet.bearing, reading.cycle, table)
         near = packet.distance < table.inhibition_distance
@@ -60,6 +64,8 @@ def keep_advert(advert, message, bearing, cycle, table):
     advert.tail = message.tail
     advert.count = message.count
     advert.confident = message.confident
+    advert.number = message.number
+    advert.solved = message.report
     if message.inhibit == 0 and message.request == 0:  # else DATA[0] carries somebody else's identity
         advert.identity = message.identity
 

@@ -23,6 +23,7 @@ from formicarium.systems.sequencing.guardian import qualifies
 from formicarium.systems.sequencing.member import begin_message, send
 from formicarium.systems.sequencing.memory import Role, State, enter
 from formicarium.systems.sequencing.perception import guarded_colour, nearest_blob
+from formicarium.systems.sequencing.steps import keep_step
 from formicarium.systems.sequencing.tail import become_tail
 
 
@@ -137,10 +138,21 @@ def is_directed_to_task(reading, memory, table):
         if colour == 0 or colour == memory.last_success:
             continue
         advert = memory.adverts[colour]
-        if not qualifies(memory.count, advert.count, advert.confident):
+        if table.mark == 2 and not keep_step(memory, advert, cycle, table):
+            continue
+        if not qualifies(memory.count, advert.count, 1 if table.mark == 2 else advert.confident):
             continue
         if nearest_blob(reading, colour, 0.0, math.pi, 1.0) >= 0:
             begin_visit(memory, colour, 0, cycle)
+            return True
+    return False
+
+
+@compiled
+def goes_round_guardian(reading, inviter):
+    """Tell whether a guardian's light is nearer than the inviting one: the branch would be led past the guardian."""
+    for n in range(inviter):  # nearest first
+        if reading.blobs[n].colour == Colour.CYAN:
             return True
     return False
 
@@ -157,19 +169,25 @@ def is_invited(reading, memory, table):
             continue
         colour = Colour.CYAN if message.guardian == 1 else Colour.MAGENTA
         bearing = reading.packets[n].bearing
-        if nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance) >= 0:
+        inviter = nearest_blob(reading, colour, bearing, table.advert_gate, table.join_distance)
+        if inviter >= 0 and not (table.mark == 2 and goes_round_guardian(reading, inviter)):
+            memory.invited_by = message.branch
             return True
     return False
 
 
 @compiled
 def join(reading, memory, command, table):
-    """Stand still and ask; become the tail when chosen, else leave (T_REQ, T_RES, T_ACK)."""
+    """Stand still and ask; become the tail when chosen, else leave (T_REQ, T_RES, T_ACK).
+
+    A request names no tail. In Mark II a tail of another branch, far off, may answer it: that does not count.
+    """
     stop(command)
     cycle = reading.cycle
     for n in range(reading.packet_count):
         message = memory.heard[n]
-        if message.tail == 1 and message.request == 1 and message.identity == reading.identity:
+        answered = message.tail == 1 and message.request == 1 and message.identity == reading.identity
+        if answered and (table.mark == 1 or message.branch == memory.invited_by):
             become_tail(reading, memory, table, n)
             return
     if cycle - memory.since > table.request_patience:
@@ -292,13 +310,16 @@ def finish_notification(reading, memory, table):
     since = cycle - memory.verdict_heard
     advert = memory.adverts[memory.colour]
     fresh = cycle - advert.heard <= 1
-    arrived = advert.confident == 1 or (memory.verdict == 0 and advert.count > memory.reported)
+    if table.mark == 2:
+        arrived = advert.solved == 1 or advert.number != memory.reported
+    else:
+        arrived = advert.confident == 1 or (memory.verdict == 0 and advert.count > memory.reported)
     if (fresh and arrived and since >= table.notify_least) or since > table.notify_patience:
         memory.notifying = 0
 
 
 @compiled
-def speak(reading, memory, command):
+def speak(reading, memory, command, table):
     """Say what there is to say: a request, a notification, an inhibition. Runners are silent otherwise (TS-41)."""
     asks = memory.state == State.JOIN
     visiting = State.APPROACH <= memory.state <= State.STAND_OFF
@@ -310,9 +331,13 @@ def speak(reading, memory, command):
     memory.message.request = 1 if asks else 0
     memory.message.inhibit = 1 if inhibits else 0
     if notifies:
-        memory.message.count = memory.reported
         memory.message.direction = memory.verdict
-    send(memory, command)
+        if table.mark == 2:
+            memory.message.report = 1
+            memory.message.number = memory.reported
+        else:
+            memory.message.count = memory.reported
+    send(memory, command, table)
 
 
 @compiled
@@ -343,4 +368,4 @@ def run(reading, memory, command, table, epuck):
     elif state == State.INHIBITED:
         keep_clear(reading, memory, command, table, epuck)
     if memory.role == Role.RUNNER:
-        speak(reading, memory, command)
+        speak(reading, memory, command, table)

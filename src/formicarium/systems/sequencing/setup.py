@@ -12,7 +12,7 @@ from formicarium.physics.world import World, make_world
 from formicarium.robots.records import COMMAND, LIGHT, QUEUE, READING, SILENCE
 from formicarium.streams import generator, stream
 from formicarium.systems.sequencing.arena import Arena, make_arena
-from formicarium.systems.sequencing.measures import CHAIN, MEMBER
+from formicarium.systems.sequencing.log import CHAIN, MEMBER
 from formicarium.systems.sequencing.memory import COLOURS, MEMORY, NEVER, State
 from formicarium.systems.sequencing.parameters import SequencingParameters
 from formicarium.trial.events import CLOCK
@@ -117,6 +117,8 @@ def make_memories(robots: np.recarray, seed: int) -> np.recarray:
             "verdict_heard",
             "echo_until",
             "requested",
+            "step_heard",
+            "stranger_heard",
         ):
             memory[name] = NEVER
         for colour in range(COLOURS):
@@ -145,6 +147,7 @@ def make_coordinator(p: SequencingParameters, seed: int) -> np.recarray:
     """Return the experimenter's computer with the correct order drawn from the seed."""
     coordinator = records(COORDINATOR, 1)
     coordinator[0].tasks = p.arena.tasks
+    coordinator[0].delayed = p.booth.delayed_feedback
     coordinator[0].order[: p.arena.tasks] = generator(seed, "order").permutation(np.arange(1, p.arena.tasks + 1))
     return coordinator
 

@@ -1,4 +1,4 @@
-"""The sequencing experiments as systems that can be run: Mark I3."""
+"""The sequencing experiments as systems that can be run: Mark I3, I4, II3 and II4."""
 
 import csv
 from collections.abc import Callable
@@ -12,7 +12,13 @@ from formicarium.systems.sequencing.arena import make_arena
 from formicarium.systems.sequencing.loop import run
 from formicarium.systems.sequencing.measures import EventKind, outcome
 from formicarium.systems.sequencing.memory import Role
-from formicarium.systems.sequencing.parameters import SequencingParameters, mark_i3_parameters
+from formicarium.systems.sequencing.parameters import (
+    SequencingParameters,
+    mark_i3_parameters,
+    mark_i4_parameters,
+    mark_ii3_parameters,
+    mark_ii4_parameters,
+)
 from formicarium.systems.sequencing.setup import SequencingState, begin
 from formicarium.systems.sequencing.watching import inspect, intervene, roll, shoot, tell
 from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
@@ -95,9 +101,18 @@ def timeline(trial: Trial) -> Timeline:
     for event in events:
         time = float(event["cycle"] + 1) * cycle_time
         if event["kind"] == EventKind.BRANCH:
-            marks.append((time, f"branch {event['subject']}"))
+            loop = "upi_correct" in trial.outcome  # Mark II names a branch by the guardian that it starts from
+            marks.append((time, f"branch from {TASKS[event['subject']]}" if loop else f"branch {event['subject']}"))
         elif event["kind"] == EventKind.CHAIN:
             marks.append((time, "chain complete"))
+        elif event["kind"] == EventKind.ELECTION:
+            marks.append((time, "election"))
+        elif event["kind"] == EventKind.LABEL:
+            marks.append((time, "labels"))
+        elif event["kind"] == EventKind.STEP:
+            marks.append((time, "steps"))
+        elif event["kind"] == EventKind.SOLVED:
+            marks.append((time, "solved"))
     counts = (events[events["kind"] == EventKind.SEQUENCE]["cycle"] + 1) * cycle_time
     lanes = tuple(str(identity) for identity in identities)
     return Timeline(lanes, tuple(spans), tuple(marks), tuple(float(t) for t in counts), end)
@@ -111,22 +126,55 @@ def published_run_times() -> dict[str, tuple[float, ...]]:
     return {ours: tuple(float(row[theirs] or "inf") for row in rows) for ours, theirs in names.items()}
 
 
-MARK_I3 = System(
-    name="mark-i3",
-    summary="TS-Swarm Mark I3: a chain of e-pucks finds out in which order three tasks must be done",
-    parameters=SequencingParameters,
-    configure=mark_i3_parameters,
-    run=run_trial,
-    kinds=tuple(kind.name.lower() for kind in EventKind),
-    targets=Targets(
-        columns={"time_1_s": "1 sequence", "time_5_s": "5 sequences", "time_10_s": "10 sequences"},
+COLUMNS = {"time_1_s": "1 sequence", "time_5_s": "5 sequences", "time_10_s": "10 sequences"}
+
+
+def system(name: str, summary: str, configure: Callable[..., SequencingParameters], targets: Targets) -> System:
+    """Return a variant as a system: all four differ by their parameters alone."""
+    return System(
+        name=name,
+        summary=summary,
+        parameters=SequencingParameters,
+        configure=configure,
+        run=run_trial,
+        kinds=tuple(kind.name.lower() for kind in EventKind),
+        targets=targets,
+        timeline=timeline,
+        begin=begin,
+        advance=run,
+        roles=frame_roles,
+        watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
+    )
+
+
+NO_PUBLISHED_RUNS = Targets(columns=COLUMNS, published={}, published_label="", published_cap=0.0)
+
+MARK_I3 = system(
+    "mark-i3",
+    "TS-Swarm Mark I3: a chain of e-pucks finds out in which order three tasks must be done",
+    mark_i3_parameters,
+    Targets(
+        columns=COLUMNS,
         published=published_run_times(),
         published_label="10 runs of 20 e-pucks, setting 0 (Garattoni & Birattari 2018, Table S3)",
         published_cap=2400.0,
     ),
-    timeline=timeline,
-    begin=begin,
-    advance=run,
-    roles=frame_roles,
-    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
+)
+MARK_I4 = system(
+    "mark-i4",
+    "TS-Swarm Mark I4: the same with four tasks",
+    mark_i4_parameters,
+    NO_PUBLISHED_RUNS,
+)
+MARK_II3 = system(
+    "mark-ii3",
+    "TS-Swarm Mark II3: only a whole sequence gets a verdict; a closed chain elects a leader and searches all orders",
+    mark_ii3_parameters,
+    NO_PUBLISHED_RUNS,
+)
+MARK_II4 = system(
+    "mark-ii4",
+    "TS-Swarm Mark II4: the same with four tasks",
+    mark_ii4_parameters,
+    NO_PUBLISHED_RUNS,
 )

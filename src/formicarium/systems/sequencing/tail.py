@@ -19,9 +19,10 @@ from formicarium.systems.sequencing.member import (
     send,
     send_invitation,
 )
-from formicarium.systems.sequencing.memory import Role, State, enter
+from formicarium.systems.sequencing.memory import COLOURS, Role, State, enter
 from formicarium.systems.sequencing.messages import LINK_NUMBER_LIMIT
 from formicarium.systems.sequencing.perception import guarded_colour, track_neighbours
+from formicarium.systems.sequencing.ring import is_word_of
 
 CYCLE_TIME = 0.1  # s, the paper's control period
 WHOLE = 1.0  # share of the tolerances within which a docking tail is in line
@@ -37,6 +38,7 @@ def become_tail(reading, memory, table, n):
     memory.link_number = min(LINK_NUMBER_LIMIT, message.link_number + 1)
     memory.established = 0
     memory.chosen = 0
+    memory.asked = 0
     memory.successor.known = 0
     memory.requested = reading.cycle
     memory.sweep_due = table.sweep_idle
@@ -75,6 +77,14 @@ def move(memory, command, outward, leftward, table, wheel_distance):
 
 
 @compiled
+def is_free(advert, memory, table):
+    """Tell whether a guardian may be docked at: reached by no chain yet, and not where the branch starts (U23)."""
+    if table.mark == 2:
+        return advert.established == 0 and advert.identity != memory.branch
+    return advert.in_chain == 0 and advert.tail == 0
+
+
+@compiled
 def spot_guardian(reading, memory, table):
     """Look for a guardian that no chain has reached yet, ahead of the branch (TS-86); sight, then message.
 
@@ -89,7 +99,7 @@ def spot_guardian(reading, memory, table):
         if colour == 0:
             continue
         advert = memory.adverts[colour]
-        if advert.in_chain == 0 and advert.tail == 0 and advert.identity != 0:
+        if advert.identity != 0 and is_free(advert, memory, table):
             memory.chosen = advert.identity
             place(memory.successor, blob.distance, blob.bearing, reading.cycle)
             return True
@@ -97,27 +107,42 @@ def spot_guardian(reading, memory, table):
 
 
 @compiled
-def recruits_for_gap(memory, table):
-    """Tell whether the guardian is too far for this tail alone, so that one more robot is needed (U21)."""
-    return distance_to(memory.predecessor) + distance_to(memory.successor) > table.dock_gaps
+def recruits_for_gap(memory, table, cycle):
+    """Tell whether the guardian is too far for this tail alone, so that one more robot is needed (U21).
+
+    In Mark II the tail first pulls the branch forward (TS-87): there are runners round the guardian at once, and each
+    that is recruited in haste bends the branch.
+    """
+    wide = distance_to(memory.predecessor) + distance_to(memory.successor) > table.dock_gaps
+    return wide and (table.mark == 1 or cycle - memory.since > table.pull_patience)
 
 
 @compiled
-def hear_guardian(reading, memory):
-    """Tell whether the guardian has taken over: EST with BRN one above the branch's (TS-50)."""
+def hear_guardian(reading, memory, table):
+    """Tell whether the guardian has taken over: EST with BRN one above the branch's (TS-50).
+
+    In Mark II, where there is no BRN: EST of the guardian that this tail has asked.
+    """
     for n in range(reading.packet_count):
         message = memory.heard[n]
-        if message.guardian == 1 and message.established == 1 and message.branch == memory.branch + 1:
+        if message.guardian == 0 or message.established == 0:
+            continue
+        if message.branch == memory.branch + 1 if table.mark == 1 else is_word_of(message, memory.asked):
             return True
     return False
 
 
 @compiled
 def open_branch(reading, memory, command, table, epuck):
-    """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps."""
+    """Hold the spacing, invite a successor, and see to it that a stuck branch sweeps.
+
+    In Mark II a guardian in view comes before any request: runners go round it already, and one that stands beyond
+    it would lead the branch past it.
+    """
     cycle = reading.cycle
     move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
-    hear_requests(reading, memory, table)
+    if table.mark == 1 or not spot_guardian(reading, memory, table):
+        hear_requests(reading, memory, table)
     if memory.state == State.OPEN:
         if spot_guardian(reading, memory, table):
             memory.settled = cycle
@@ -158,17 +183,28 @@ def sweep(reading, memory, command, table, epuck):
 
 
 @compiled
+def is_taken(memory, table):
+    """Tell whether another branch has reached the guardian before this tail could ask it (Mark II)."""
+    if table.mark == 1 or memory.asked == memory.chosen:
+        return False
+    for c in range(1, COLOURS):
+        if memory.adverts[c].identity == memory.chosen and memory.adverts[c].established == 1:
+            return True
+    return False
+
+
+@compiled
 def dock(reading, memory, command, table, epuck):
     """Align with predecessor and guardian; recruit one more robot if the gap is too wide (TS-87)."""
     cycle = reading.cycle
-    if cycle - memory.successor.seen > table.track_lost:
+    if cycle - memory.successor.seen > table.track_lost or is_taken(memory, table):
         memory.chosen = 0
         memory.successor.known = 0
         memory.requested = cycle
         memory.sweep_due = pause_to_realign(memory, table)
         enter(memory, State.OPEN, cycle)
         return
-    if recruits_for_gap(memory, table):
+    if recruits_for_gap(memory, table, reading.cycle):
         memory.settled = cycle
         move(memory, command, radial_speed(memory, table), 0.0, table, epuck.wheel_distance)
         hear_requests(reading, memory, table)
@@ -181,7 +217,7 @@ def dock(reading, memory, command, table, epuck):
 @compiled
 def hands_over(reading, memory, table):
     """Tell whether a docking tail is aligned long enough, or has tried long enough, to hand over."""
-    if memory.state != State.DOCK or recruits_for_gap(memory, table):
+    if memory.state != State.DOCK or recruits_for_gap(memory, table, reading.cycle):
         return False
     cycle = reading.cycle
     return cycle - memory.settled >= table.dock_hold or cycle - memory.since >= table.dock_patience
@@ -191,22 +227,25 @@ def hands_over(reading, memory, table):
 def speak(reading, memory, command, table):
     """Announce the tail; invite through the sector, or answer the chosen one in all directions."""
     if memory.role == Role.LINK:
-        link.speak(reading, memory, command)
+        link.speak(reading, memory, command, table)
         return
     begin_message(memory, reading.identity)
     memory.message.tail = 1
     memory.message.branch = memory.branch
+    memory.message.source = memory.branch
     memory.message.link_number = memory.link_number
-    if memory.state == State.OFFER or hands_over(reading, memory, table):
+    asks = hands_over(reading, memory, table)
+    if memory.state == State.OFFER or asks:
         memory.message.request = 1
         memory.message.identity = memory.chosen
-        send(memory, command)
+        memory.asked = memory.chosen if asks else memory.asked
+        send(memory, command, table)
     elif memory.state == State.OPEN:
-        send_invitation(memory, command, branch_direction(memory), table.sector_half_width)
-    elif memory.state == State.DOCK and recruits_for_gap(memory, table):
-        send_invitation(memory, command, bearing_to(memory.successor), table.sector_half_width)
+        send_invitation(memory, command, branch_direction(memory), table)
+    elif memory.state == State.DOCK and recruits_for_gap(memory, table, reading.cycle):
+        send_invitation(memory, command, bearing_to(memory.successor), table)
     else:
-        send(memory, command)
+        send(memory, command, table)
 
 
 @compiled
@@ -215,9 +254,11 @@ def tail(reading, memory, command, table, epuck):
     cycle = reading.cycle
     command.colour = Colour.MAGENTA
     track_neighbours(reading, memory, table)
-    if hear_guardian(reading, memory):
+    if hear_guardian(reading, memory, table):
         become_link(memory, cycle)
         memory.established = 1
+        if table.mark == 2:
+            memory.chosen = memory.asked
     elif memory.state != State.DOCK and relieved(reading, memory, table):
         become_link(memory, cycle)
     elif memory.state == State.POSITION:

@@ -6,11 +6,12 @@ import numpy as np
 
 from formicarium.compiled import compiled
 from formicarium.robots.records import SILENCE
+from formicarium.systems.sequencing.log import EventKind
 from formicarium.systems.sequencing.loop import run
-from formicarium.systems.sequencing.measures import EventKind
 from formicarium.systems.sequencing.memory import NEVER, Role, State
 from formicarium.systems.sequencing.messages import MESSAGE, decode
-from formicarium.trial.film import shoot_robots
+from formicarium.systems.sequencing.messages_ii import decode_ii
+from formicarium.trial.film import NOWHERE, shoot_robots
 from formicarium.trial.showing import (
     byte,
     colour,
@@ -27,6 +28,7 @@ from formicarium.trial.watching import Impossible, Inspection, Intervention, Sec
 
 DEAD = 4  # as frames number the dead
 ROOM = 100  # places of a branch
+REACHED = 0.35  # m, a branch ends this near to the guardian that it has reached
 
 
 @compiled
@@ -44,9 +46,13 @@ def shoot(state, film):
             shot.role = 0
         elif memory.role == Role.GUARDIAN:
             shot.role = 1
-            shot.place = memory.branch * ROOM
-            if memory.established == 1 and memory.branch > 1:
-                shot.after = last_place(state, memory.branch - 1)
+            if state.behaviour[0].mark == 2:  # a branch is named by the guardian that it starts from
+                shot.place = state.robots[i].identity * ROOM
+                shot.after = place_of_visitor(state, i) if memory.established == 1 else NOWHERE
+            else:
+                shot.place = memory.branch * ROOM
+                if memory.established == 1 and memory.branch > 1:
+                    shot.after = last_place(state, memory.branch - 1)
         else:
             shot.role = 3 if memory.role == Role.TAIL else 2
             shot.place = memory.branch * ROOM + memory.link_number
@@ -54,6 +60,23 @@ def shoot(state, film):
     for b in range(len(state.booths)):
         booth = state.booths[b]
         film.lit[moment, b] = 1 if booth.occupied == 0 and booth.blocked == 0 else 0
+
+
+@compiled
+def place_of_visitor(state, i):
+    """Return the place of the nearest link or tail of another branch: the one that has reached guardian ``i``."""
+    body = state.world.bodies[i]
+    nearest = REACHED * REACHED
+    place = NOWHERE
+    for j in range(len(state.robots)):
+        memory = state.memories[j]
+        if state.robots[j].alive == 1 and (memory.role == Role.LINK or memory.role == Role.TAIL):
+            dx = state.world.bodies[j].x - body.x
+            dy = state.world.bodies[j].y - body.y
+            if memory.branch != state.robots[i].identity and dx * dx + dy * dy < nearest:
+                nearest = dx * dx + dy * dy
+                place = memory.branch * ROOM + memory.link_number
+    return place
 
 
 @compiled
@@ -84,9 +107,10 @@ def inspect(state: Any, identity: int) -> Inspection:
     i = int(np.nonzero(np.asarray(state.robots["identity"]) == identity)[0][0])
     reading, memory, command = (np.asarray(part)[i] for part in (state.readings, state.memories, state.commands))
     words = words_at(int(reading["cycle"]), float(state.world.settings["cycle_time"][0]))
+    mark = int(state.behaviour["mark"][0])
     packets = reading["packets"][: int(reading["packet_count"])]
-    heard = {f"{metres(p['distance'])}, {degrees(p['bearing'])}": message_of(p["payload"]) for p in packets}
-    sent = {head: message_of(content) for head, content in said(command).items()}
+    heard = {f"{metres(p['distance'])}, {degrees(p['bearing'])}": message_of(p["payload"], mark) for p in packets}
+    sent = {head: message_of(content, mark) for head, content in said(command).items()}
     leave = ("message", "heard", "adverts", "target", "predecessor", "successor")
     tracks = [(name, track(memory[name])) for name in leave[3:]]
     adverts = {colour(c): advert for c, advert in enumerate(memory["adverts"]) if c and advert["heard"] > NEVER}
@@ -111,10 +135,10 @@ def inspect(state: Any, identity: int) -> Inspection:
     )
 
 
-def message_of(payload: np.ndarray) -> Any:
-    """Return four bytes as a message."""
+def message_of(payload: np.ndarray, mark: int) -> Any:
+    """Return four bytes as a message of Mark I or II."""
     message = np.zeros(1, MESSAGE).view(np.recarray)
-    decode(payload, message[0])
+    (decode_ii if mark == 2 else decode)(payload, message[0])
     return np.asarray(message)[0]
 
 
@@ -193,7 +217,7 @@ def tell(event: Any) -> str:
         case EventKind.VISIT:
             return f"{who} {'enters' if value else 'leaves'} the {colour(subject)} booth"
         case EventKind.EXECUTED:
-            return f"{who} does {colour(subject)} as task {detail}: {'success' if value else 'failure'}"
+            return f"{who} does {colour(subject)} as task {detail}: {('failure', 'success', 'noted')[value]}"
         case EventKind.SEQUENCE:
             return f"{who} completes sequence {value}"
         case EventKind.CONDITION:
@@ -206,6 +230,15 @@ def tell(event: Any) -> str:
             return f"{who}, {Role(value).name.lower()}, is pushed off its place"
         case EventKind.DIED:
             return f"{who}, {Role(value).name.lower()}, dies"
+        case EventKind.LABEL:
+            return f"guardian {robot} of {colour(subject)} has label {chr(ord('a') + value - 1)}"
+        case EventKind.STEP | EventKind.SOLVED:
+            what = "goes on to" if kind == EventKind.STEP else "has found"
+            return f"guardian {robot} of {colour(subject)} {what} permutation {value}"
+        case EventKind.CROSSING:
+            return f"{who} crosses the loop {'inwards' if value else 'outwards'}"
+        case EventKind.HOPELESS:
+            return "nobody has been a runner for long: the trial ends"
         case EventKind.STATE:
             return f"{who}: {State(detail).name.lower()} to {State(value).name.lower()}"
         case EventKind.MESSAGE:
