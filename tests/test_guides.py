@@ -36,14 +36,14 @@ def submitted(script):
     assert [task.wait(timeout=120) for task in tasks] == [0] * len(tasks)
 
 
-def execute(kind, text):
+def execute(kind, text, codes=None):
     if kind.startswith("file: "):
         Path(kind.removeprefix("file: ")).write_text(text)
     elif kind == "commands":
         for line in text.splitlines():
-            assert exit_code(typed(line)) == 0, line
+            assert exit_code(typed(line)) == (codes or {}).get(line.split()[1], 0), line
     elif kind == "python":
-        exec(compile(text, "campaigns.md", "exec"), {})
+        exec(compile(text, "guide.md", "exec"), {})
     elif kind == "sbatch":
         submitted(shlex.split(text)[1])
     else:
@@ -67,3 +67,18 @@ def test_the_guide_to_campaigns_is_true(tmp_path, monkeypatch):
         assert exit_code(["campaign", "collect", "study.toml", "--out", name, *SHORT]) == 0
     assert pq.read_table("alone/runs.parquet").num_rows == 8
     assert len({Path(name, "runs.parquet").read_bytes() for name in names}) == 1  # one process, two, Dask, a job array
+
+
+def test_the_guide_to_watching_is_true(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shown = []
+    for place in ("showing", "replaying"):
+        monkeypatch.setattr(f"formicarium.commands.{place}.show", lambda session, *_: shown.append(session) or 0)
+    text = (ROOT / "docs" / "guides" / "watching.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content, {"diff": 1})
+    assert len(shown) == 2
+    names = {file.name for file in tmp_path.iterdir()}
+    assert names >= {"seven.mp4", "seven.svg", "seven.html", "seed-7.mcap", "trajectories-seed-7.csv"}

@@ -17,10 +17,15 @@ from formicarium.campaigns.errors import CrewError, DesignError, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
 from formicarium.commands.describe import describe
+from formicarium.commands.diff import diff
 from formicarium.commands.errors import UserError
+from formicarium.commands.export import export
+from formicarium.commands.movie import movie
+from formicarium.commands.replay import replay
 from formicarium.commands.run import run
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
+from formicarium.commands.watch import watch
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
 
@@ -29,6 +34,7 @@ Start here:
     formicarium systems                     which systems there are
     formicarium run mark-i3                 one run, with pictures
     formicarium run mark-i3 --runs 30       thirty runs on all cores
+    formicarium watch mark-i3               one run on a live page
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
@@ -43,6 +49,11 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.command(run)
+app.command(watch)
+app.command(replay)
+app.command(diff)
+app.command(movie)
+app.command(export)
 app.command(systems)
 app.command(describe)
 app.command(campaign)

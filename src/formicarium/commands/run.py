@@ -21,6 +21,7 @@ def run(
     workers: Whole | None = None,
     movie: Annotated[bool, Parameter(negative="")] = False,
     frames: float | None = None,
+    record: Annotated[bool, Parameter(negative="")] = False,
 ) -> int:
     """Run a system once or many times, and keep tables and pictures of it.
 
@@ -57,6 +58,8 @@ def run(
         Make a movie of every run (of the first only if there are more than 10).
     frames
         Seconds between two records of all positions; 2 for a single run, 0.5 for a movie if not given.
+    record
+        Record every run: frames and events with a rolling hash, for formicarium replay, diff, movie and export.
     """
     from formicarium.commands.errors import UserError
     from formicarium.commands.session import Request, perform
@@ -64,4 +67,5 @@ def run(
     if out == "":
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
     folder = None if out is None else Path(out)
-    return perform(Request(system, runs, seed, robots, setting, tuple(set_ or ()), folder, workers, movie, frames))
+    settings = tuple(set_ or ())
+    return perform(Request(system, runs, seed, robots, setting, settings, folder, workers, movie, frames, record))

@@ -14,9 +14,10 @@ from formicarium.commands.errors import UserError
 from formicarium.commands.known import find_system, parameters_of
 from formicarium.commands.pictures import draw_run, draw_set
 from formicarium.commands.progress import Progress
+from formicarium.commands.runs import RECORDINGS
 from formicarium.commands.summary import print_summary
 from formicarium.commands.tables import EVERY
-from formicarium.commands.work import configuration_of, function_of
+from formicarium.commands.work import as_json, configuration_of, function_of, record_run, recording_of
 from formicarium.compiled import PACKAGE
 
 FRAMES_OF_ONE_RUN = 2.0  # seconds: enough for the last frame and a look at the way there
@@ -39,6 +40,7 @@ class Request(NamedTuple):
     workers: int | None
     movie: bool
     frames: float | None
+    record: bool = False
 
 
 def perform(request: Request) -> int:
@@ -56,7 +58,10 @@ def perform(request: Request) -> int:
     folder = request.out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}"
     seeds = range(request.seed, request.seed + request.runs)
     every = _frames_every(request)
-    function = function_of(request.system, parameters, every, configuration.sources)
+    recordings = folder / RECORDINGS if request.record else None
+    if recordings is not None and system.watching is None:
+        raise UserError(f"--record: {system.name} does not say how it is shown (System.watching)")
+    function = function_of(request.system, parameters, every, configuration.sources, recordings)
     screen, trouble = Console(), Console(stderr=True)
 
     def wanted(seed: int) -> dict[str, dict[str, str]]:
@@ -82,6 +87,10 @@ def perform(request: Request) -> int:
                     f"interrupted: {done} of {len(seeds)} runs are done and kept in {folder}. "
                     "The same command continues."
                 ) from None
+            for seed in seeds:
+                if recordings and seed in store.rows and not recording_of(recordings, seed).exists():
+                    progress.note(f"recording seed {seed}")
+                    record_run(request.system, as_json(parameters), seed, recordings, progress.inside)
             pictures = draw_set(system, store, seeds, folder) if len(seeds) > 1 else []
             for seed in sorted({*every} & {*store.rows}):
                 progress.note(f"drawing seed {seed}")

@@ -9,9 +9,11 @@ import pyarrow as pa
 
 from formicarium.campaigns.result import Result
 from formicarium.campaigns.table import metadata_of, with_metadata
-from formicarium.trial.record import EVENT, Frames, Polygon, Scene, Trial
+from formicarium.trial.record import EVENT, Frames, Scene, Trial
+from formicarium.views.scenes import scene_content, scene_from
 
 EVERY = "every_s"  # metadata of the frames: seconds between two
+LISTS = tuple(name for name in Frames._fields if name not in ("cycle", "identity"))  # a value a robot or device
 
 
 def result_of(trial: Trial, kinds: tuple[str, ...], frames_every: float | None) -> Result:
@@ -25,7 +27,7 @@ def result_of(trial: Trial, kinds: tuple[str, ...], frames_every: float | None) 
 def trial_of(row: Mapping[str, Any], events: pa.Table, frames: pa.Table | None, kinds: tuple[str, ...]) -> Trial:
     """Put a trial together again from its row and tables."""
     outcome = {name: value for name, value in row.items() if name != "seed"}
-    scene = _scene(metadata_of(events.schema)["scene"])
+    scene = scene_from(json.loads(metadata_of(events.schema)["scene"]))
     return Trial(outcome, _events(events, kinds), None if frames is None else _frames(frames), scene)
 
 
@@ -33,13 +35,7 @@ def _events_table(events: np.ndarray, kinds: tuple[str, ...], scene: Scene) -> p
     columns: dict[str, Any] = {"seconds": events["cycle"] * scene.cycle_time}
     columns.update({name: pa.array(events[name]) for name in EVENT.names or ()})
     columns["kind"] = pa.DictionaryArray.from_arrays(pa.array(events["kind"], pa.int32()), pa.array(kinds))
-    content = {
-        "polygons": [[polygon.points.tolist(), polygon.colour] for polygon in scene.polygons],
-        "radius": scene.radius,
-        "roles": scene.roles,
-        "cycle_time": scene.cycle_time,
-    }
-    return with_metadata(pa.table(columns), {"scene": json.dumps(content)})
+    return with_metadata(pa.table(columns), {"scene": json.dumps(scene_content(scene))})
 
 
 def _events(table: pa.Table, kinds: tuple[str, ...]) -> np.ndarray:
@@ -51,15 +47,9 @@ def _events(table: pa.Table, kinds: tuple[str, ...]) -> np.ndarray:
     return events
 
 
-def _scene(text: str) -> Scene:
-    content = json.loads(text)
-    polygons = tuple(Polygon(np.array(points, float), colour) for points, colour in content["polygons"])
-    return Scene(polygons, content["radius"], tuple(content["roles"]), content["cycle_time"])
-
-
 def _frames_table(frames: Frames) -> pa.Table:
     """One row a frame; what belongs to robots or devices is a list in their order."""
-    lists = {name: _lists(getattr(frames, name)) for name in Frames._fields if name not in ("cycle", "identity")}
+    lists = {name: _lists(getattr(frames, name)) for name in LISTS if getattr(frames, name) is not None}
     identity = {"identity_of_robots": json.dumps(frames.identity.tolist())}
     return with_metadata(pa.table({"cycle": frames.cycle, **lists}), identity)
 
@@ -77,5 +67,5 @@ def _frames(table: pa.Table) -> Frames:
         values = table[name].combine_chunks().flatten().to_numpy()
         return values.reshape(count, len(values) // max(count, 1))
 
-    lists = {name: matrix(name) for name in Frames._fields if name not in ("cycle", "identity")}
+    lists = {name: matrix(name) for name in LISTS if name in table.column_names}
     return Frames(cycle=table["cycle"].to_numpy(), identity=identity, **lists)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -17,6 +18,7 @@ from formicarium.systems.registry import System, resolve
 from formicarium.trial.record import Trial
 
 FRAMES_EVERY = 2.0  # seconds between two frames, if a campaign keeps them
+RECORDED_EVERY = 0.5  # seconds between two frames of a recording
 
 
 def run_trial(
@@ -31,7 +33,9 @@ class ChangedSources(Futile):
     """A worker found other sources than those that the identity of the results stands for."""
 
 
-def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, float], sources: str) -> Function:
+def function_of(
+    name: str, parameters: BaseModel, frames_every: Mapping[int, float], sources: str, recordings: Path | None = None
+) -> Function:
     """Return the function that a set repeats.
 
     Args:
@@ -39,8 +43,9 @@ def function_of(name: str, parameters: BaseModel, frames_every: Mapping[int, flo
         parameters: of all runs.
         frames_every: seed -> seconds between two frames; no frames for other seeds.
         sources: hash of the sources that results are kept under; a worker that imports others refuses to run.
+        recordings: folder in which every run is recorded, None for no recordings.
     """
-    return partial(_perform, name, as_json(parameters), dict(frames_every), sources)
+    return partial(_perform, name, as_json(parameters), dict(frames_every), sources, recordings=recordings)
 
 
 def row_function(name: str, parameters: BaseModel, sources: str, keep: tuple[str, ...] = ()) -> Function:
@@ -63,11 +68,31 @@ def _perform(
     sources: str,
     seed: int,
     watch: Watch | None,
+    recordings: Path | None = None,
 ) -> Result:
     if sources_of(resolve(system)) != sources:
         raise ChangedSources("the sources were edited while the set ran; run the same command again")
     every = frames_every.get(seed)
+    if recordings is not None:
+        recorded = record_run(system, parameters, seed, recordings, watch)
+        if every is None:
+            return result_of(recorded, resolve(system).kinds, None)
     return result_of(run_trial(system, parameters, seed, every, watch), resolve(system).kinds, every)
+
+
+def recording_of(folder: Path, seed: int) -> Path:
+    """Return where the recording of a run is kept."""
+    return folder / f"seed-{seed}.recording"
+
+
+def record_run(system: str, parameters: bytes, seed: int, folder: Path, watch: Watch | None) -> Trial:
+    """Run a trial and record it."""
+    from formicarium.views.recording.recorded import record_trial
+
+    found = resolve(system)
+    given = found.parameters.model_validate_json(parameters)
+    head = {**configuration_of(found, given).content(), "name": system, "seed": seed, "kinds": list(found.kinds)}
+    return record_trial(found, given, seed, recording_of(folder, seed), head, RECORDED_EVERY, watch)
 
 
 def as_json(parameters: BaseModel) -> bytes:

@@ -59,6 +59,7 @@ BOOTH = np.dtype(
         ("verdict", "i8"),  # byte that ends the visit, 0 until judged
         ("judged", "i8"),  # cycle of the last verdict
         ("draws", "u8"),  # the booth's own random stream
+        ("blocked", "i8"),  # 1 while a person keeps it dark and mute
     ],
     align=True,
 )
@@ -139,7 +140,7 @@ def begin_visit(booth, table, visitor, cycle):
     booth.claim = 0
     booth.verdict = 0
     booth.draws = advanced(booth.draws)
-    booth.mute = 1 if uniform(booth.draws) < table.exchange_failure else 0
+    booth.mute = 1 if uniform(booth.draws) < table.exchange_failure or booth.blocked == 1 else 0
 
 
 @compiled
@@ -170,7 +171,7 @@ def answer(booth):
 
 @compiled
 def show_lights(booth, lights, first):
-    """Show the task's colour, or nothing while a robot is inside (TS-23)."""
-    colour = Colour.OFF if booth.occupied == 1 else booth.colour
+    """Show the task's colour, or nothing while a robot is inside (TS-23) or the booth is blocked."""
+    colour = Colour.OFF if booth.occupied == 1 or booth.blocked == 1 else booth.colour
     for k in range(first, first + len(LIGHTS)):
         lights[k].colour = colour

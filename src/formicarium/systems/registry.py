@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from formicarium.trial.record import Timeline, Trial
+from formicarium.trial.watching import Watching
 
 BUILT_IN = {
     "mark-i3": "formicarium.systems.sequencing.study:MARK_I3",
@@ -48,6 +49,7 @@ class System(NamedTuple):
     begin: Callable[..., Any] | None = None  # (parameters, seed, *, storage) -> state before the first cycle
     advance: Callable[[Any, int], None] | None = None  # (state, cycles): the compiled loop
     roles: Callable[[Any], np.ndarray] | None = None  # state -> (N,) role numbers as in Scene.roles
+    watching: Watching | None = None  # how it is shown and touched; None if it cannot be watched
 
 
 class UnknownSystem(LookupError):

@@ -33,6 +33,7 @@ class Scene(NamedTuple):
     radius: float  # of the robots, metres
     roles: tuple[str, ...]  # names of the role numbers in the frames, for legends
     cycle_time: float  # seconds
+    ranges: tuple[tuple[str, float], ...] = ()  # names and reaches of the robots' senses, metres, to be drawn
 
 
 class Frames(NamedTuple):
@@ -46,6 +47,8 @@ class Frames(NamedTuple):
     carried: np.ndarray  # (F, N) int8, a small number the system wants shown on the robot (tasks done so far)
     lit: np.ndarray  # (F, B) int8, 1 while the lights of device b are on; devices in the order of the Scene
     identity: np.ndarray  # (N,) int64
+    colour: np.ndarray | None = None  # (F, N) int8, Colour of each robot's lights
+    joined: np.ndarray | None = None  # (F, N) int16, column of the robot that each is linked to, -1 for none
 
 
 class Trial(NamedTuple):

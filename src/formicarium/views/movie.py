@@ -1,4 +1,4 @@
-"""A trial as a movie: MP4 if imageio-ffmpeg is installed (the extra ``movie``), otherwise an animated GIF."""
+"""A trial as a movie: MP4 or WebM if imageio-ffmpeg is installed (the extra ``movie``), otherwise an animated GIF."""
 
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
@@ -14,6 +14,10 @@ from formicarium.views.overhead import Overhead
 FRAMES_PER_SECOND = 30
 GIF_FRAMES_PER_SECOND = 10
 GIF_FRAMES = 400  # the writer of Pillow keeps all of them in memory until the end
+CODECS = {
+    ".mp4": ("libx264", ("-crf", "21", "-preset", "veryfast", "-movflags", "+faststart")),
+    ".webm": ("libvpx-vp9", ("-crf", "34", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6")),
+}
 
 Progress = Callable[[int, int], None]
 
@@ -23,8 +27,10 @@ def suffix() -> str:
     return ".mp4" if find_spec("imageio_ffmpeg") else ".gif"
 
 
-def draw_movie(scene: Scene, frames: Frames, path: Path, title: str = "", progress: Progress | None = None) -> Path:
-    """Write all frames, 30 a second, to ``path`` with the suffix of this installation; return that path.
+def draw_movie(
+    scene: Scene, frames: Frames, path: Path, title: str = "", progress: Progress | None = None, kind: str | None = None
+) -> Path:
+    """Write all frames, 30 a second, to ``path``; return that path, with the suffix it was given.
 
     Frames are drawn and written one by one, so a long trial needs no more memory than a short one. A GIF
     gets at most 400 frames, at half the size.
@@ -35,12 +41,13 @@ def draw_movie(scene: Scene, frames: Frames, path: Path, title: str = "", progre
         path: the suffix is replaced.
         title: shown above the time.
         progress: told frames drawn and frames in all.
+        kind: ".mp4", ".webm" or ".gif"; that of this installation if not given.
 
     Raises:
         StoreError: if the file cannot be written.
     """
-    path = path.with_suffix(suffix())
-    write = _write_mp4 if path.suffix == ".mp4" else _write_gif
+    path = path.with_suffix(kind or suffix())
+    write = _write_gif if path.suffix == ".gif" else _write_video
     with replacing(path) as temporary:
         write(scene, frames, temporary, title, progress or (lambda done, total: None))
     return path
@@ -66,21 +73,21 @@ def images(picture: Overhead, frames: Frames, chosen: np.ndarray, progress: Prog
         progress(done, len(chosen))
 
 
-def _write_mp4(scene: Scene, frames: Frames, path: Path, title: str, progress: Progress) -> None:
+def _write_video(scene: Scene, frames: Frames, path: Path, title: str, progress: Progress) -> None:
     from imageio_ffmpeg import write_frames
 
     picture = Overhead(scene, title)
     size = tuple(int(side) for side in picture.figure.bbox.size)
-    options = ["-crf", "21", "-preset", "veryfast", "-movflags", "+faststart"]
+    codec, options = CODECS[path.suffix]
     writer = write_frames(
         str(path),
         size,
         pix_fmt_in="rgba",
         fps=FRAMES_PER_SECOND,
-        codec="libx264",
+        codec=codec,
         quality=None,
         macro_block_size=2,
-        output_params=options,
+        output_params=list(options),
         ffmpeg_log_level="error",
     )
     writer.send(None)

@@ -63,12 +63,19 @@ class Overhead:
         self.headings.set_segments(list(ends))
         self.letters.set(offsets=places, facecolors=self._inks[role])
         self.letters.set_paths([self._letter(*pair) for pair in zip(role, frames.carried[index])])
-        chained = np.array([style.chained for style in self.styles])[role]
-        self.chain.set_segments(bands(places[chained], 10 * radius))
+        self.chain.set_segments(self._links(frames, index, places))
         self._light(frames.lit[index])
         self.time.set_text(clock(frames.cycle[index] * self.scene.cycle_time))
         for text, number in zip(self.counts, np.bincount(role, minlength=len(self.styles))):
             text.set_text(str(number))
+
+    def _links(self, frames: Frames, index: int, places: np.ndarray) -> list[np.ndarray]:
+        if frames.joined is None:
+            chained = np.array([style.chained for style in self.styles])[frames.role[index]]
+            return bands(places[chained], 10 * self.scene.radius)
+        other = frames.joined[index]
+        pairs = np.stack([places, places[other]], axis=1)[other >= 0]
+        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < 18 * self.scene.radius])
 
     def _letter(self, role: int, carried: int):
         text = self.styles[role].letter or (str(carried) if carried else "")

@@ -20,8 +20,10 @@ from formicarium.systems.sequencing.parameters import (
     mark_ii4_parameters,
 )
 from formicarium.systems.sequencing.setup import SequencingState, begin
+from formicarium.systems.sequencing.watching import inspect, intervene, roll, shoot, tell
 from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.simulate import Album, simulate
+from formicarium.trial.watching import Watching
 
 ROLES = ("runner", "guardian", "link", "tail", "dead")  # as frames number them
 FRAME_ROLE = {Role.RUNNER: 0, Role.GUARDIAN: 1, Role.LINK: 2, Role.TAIL: 3}
@@ -42,7 +44,16 @@ def scene_of(parameters: SequencingParameters, state: SequencingState) -> Scene:
     for k, booth in enumerate(state.booths):
         own = arena.segments[arena.segments.group == k + 1]
         polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), TASKS[int(booth.colour)]))
-    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.physics.cycle_time)
+    epuck = parameters.epuck
+    ranges = (("camera", epuck.camera_range), ("radio", epuck.radio_range))
+    return Scene(tuple(polygons), epuck.radius, ROLES, parameters.physics.cycle_time, ranges)
+
+
+def outcome_row(parameters: SequencingParameters, state: SequencingState, events: np.ndarray) -> dict[str, Any]:
+    """Return the row of a finished trial."""
+    row: dict[str, Any] = {"robots": parameters.swarm.robots, "side_m": parameters.arena.side}
+    row |= {"order": "".join(TASKS[int(c)][0].upper() for c in state.coordinator[0].order[: parameters.arena.tasks])}
+    return row | outcome(state, events)
 
 
 def run_trial(
@@ -65,10 +76,8 @@ def run_trial(
     album = Album(state, frame_roles, lambda state: state.memories["count"])
     take = None if frames_every is None else lambda state: album.take(state, state.booths.occupied == 0)
     events = simulate(run, state, every=every, take=take, watch=watch)
-    row: dict[str, Any] = {"robots": parameters.swarm.robots, "side_m": parameters.arena.side}
-    row |= {"order": "".join(TASKS[int(c)][0].upper() for c in state.coordinator[0].order[: parameters.arena.tasks])}
-    frames: Frames | None = album.frames() if frames_every is not None else None
-    return Trial(row | outcome(state, events), events, frames, scene_of(parameters, state))
+    taken: Frames | None = album.frames() if frames_every is not None else None
+    return Trial(outcome_row(parameters, state, events), events, taken, scene_of(parameters, state))
 
 
 def timeline(trial: Trial) -> Timeline:
@@ -134,6 +143,7 @@ def system(name: str, summary: str, configure: Callable[..., SequencingParameter
         begin=begin,
         advance=run,
         roles=frame_roles,
+        watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
     )
 
 
