@@ -21,6 +21,7 @@ from formicarium.commands.diff import diff
 from formicarium.commands.errors import UserError
 from formicarium.commands.export import export
 from formicarium.commands.movie import movie
+from formicarium.commands.new import new
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
 from formicarium.commands.study import study
@@ -38,6 +39,7 @@ Start here:
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
+    formicarium new my-swarm                a system of your own, laid out and working
 """
 
 app = App(
@@ -58,6 +60,7 @@ app.command(systems)
 app.command(describe)
 app.command(campaign)
 app.command(study)
+app.command(new)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -13,9 +13,16 @@ from formicarium.systems.registry import System
 
 def sources_of(system: System) -> str:
     """Return the hash of all sources that decide the results of a system: 16 hexadecimal digits."""
+    if system.home is not None:
+        module = sys.modules[system.home]
+        return _hash_of(Path(str(module.__file__)).resolve(), module.__package__)
     run = system.run.func if isinstance(system.run, functools.partial) else inspect.unwrap(system.run)
     file = Path(inspect.getfile(run)).resolve()
-    return source_hash() if file.is_relative_to(PACKAGE) else _own_hash(file, sys.modules[run.__module__].__package__)
+    return _hash_of(file, sys.modules[run.__module__].__package__)
+
+
+def _hash_of(file: Path, package: str | None) -> str:
+    return source_hash() if file.is_relative_to(PACKAGE) else _own_hash(file, package)
 
 
 @functools.cache

@@ -1,11 +1,15 @@
 """The register of systems: name -> "module:object", resolved only when asked for.
 
-A reader's own package registers in the entry-point group ``formicarium.systems``.
+A reader's own package registers in the entry-point group ``formicarium.systems``. Whoever stands in the folder of
+such a package need not install it: what its pyproject.toml announces is known there.
 """
 
+import sys
+import tomllib
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.metadata import entry_points
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,6 +54,7 @@ class System(NamedTuple):
     advance: Callable[[Any, int], None] | None = None  # (state, cycles): the compiled loop
     roles: Callable[[Any], np.ndarray] | None = None  # state -> (N,) role numbers as in Scene.roles
     watching: Watching | None = None  # how it is shown and touched; None if it cannot be watched
+    home: str | None = None  # module whose package holds its sources; that of ``run`` if not given
 
 
 class UnknownSystem(LookupError):
@@ -58,7 +63,23 @@ class UnknownSystem(LookupError):
 
 def names() -> list[str]:
     """Return the names of all registered systems, sorted."""
-    return sorted({*BUILT_IN, *(point.name for point in entry_points(group=GROUP))})
+    return sorted({*BUILT_IN, *announced_here(), *(point.name for point in entry_points(group=GROUP))})
+
+
+def announced_here() -> dict[str, str]:
+    """Return the systems that the pyproject.toml of the current folder announces: name -> "module:object".
+
+    Raises:
+        UnknownSystem: if the file is no TOML.
+    """
+    try:
+        content = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        return {}
+    except tomllib.TOMLDecodeError as error:
+        raise UnknownSystem(f"pyproject.toml of this folder is no TOML: {error}") from error
+    found = content.get("project", {}).get("entry-points", {}).get(GROUP, {})
+    return {str(name): str(place) for name, place in found.items()} if isinstance(found, dict) else {}
 
 
 def resolve(name: str) -> System:
@@ -70,6 +91,11 @@ def resolve(name: str) -> System:
     if name in BUILT_IN:
         module, attribute = BUILT_IN[name].split(":")
         return getattr(import_module(module), attribute)
+    if place := announced_here().get(name):
+        here = str(Path.cwd())
+        if here not in sys.path:
+            sys.path.insert(0, here)  # first: who stands in the folder means its files, not an installed copy
+        return _unregistered(place)
     for point in entry_points(group=GROUP):
         if point.name == name:
             return point.load()
