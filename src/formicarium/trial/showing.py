@@ -19,8 +19,10 @@ def packets_of(state: Any) -> np.ndarray:
     """Return who heard whom in the last cycle: (P, 2) columns of receiver and sender, as frames are ordered.
 
     A robot does not know who sent what it hears, but a viewer can tell: the sender is the robot that says just
-    that in the direction from which it came.
+    that in the direction from which it came. Robots without radio hear nobody.
     """
+    if "packets" not in (state.readings.dtype.names or ()):
+        return np.zeros((0, 2), "u2")
     readings, robots, bodies = (np.asarray(part) for part in (state.readings, state.robots, state.world.bodies))
     heard = np.arange(readings["packets"].shape[1]) < readings["packet_count"][:, None]
     heard &= robots["alive"][:, None] == 1
@@ -96,12 +98,18 @@ def side_by_side(title: str, records: Mapping[str, Any], words: Words) -> Sectio
 def reading_sections(reading: Any) -> list[Section]:
     """Return what a robot senses, but for the content of packets."""
     words = {"infrared": byte}
-    rows = fields(reading, words, ("proximity", "blobs", "packets"))
-    sensors = zip(PROXIMITY_ANGLES, reading["proximity"])
+    rays = [name for name in ("proximity", "light") if name in reading.dtype.names]
+    rows = fields(reading, words, (*rays, "blobs", "packets"))
+    sensors = zip(PROXIMITY_ANGLES, *(reading[name] for name in rays))
+    titles = {"proximity": "0 nothing, 1 touching", "light": "light, 0 dark"}
     blobs = reading["blobs"][: int(reading["blob_count"])]
     return [
         Section("Reading", ("field", "value"), tuple(rows)),
-        Section("Proximity", ("towards", "0 nothing, 1 touching"), tuple((degrees(a), f"{v:.2f}") for a, v in sensors)),
+        Section(
+            "Proximity",
+            ("towards", *(titles[name] for name in rays)),
+            tuple((degrees(angle), *(f"{value:.2f}" for value in values)) for angle, *values in sensors),
+        ),
         Section(
             "Lights seen",
             ("colour", "distance", "bearing"),

@@ -22,6 +22,7 @@ const told = {
     if (content.touchable) {
       find("devices").hidden = arena.devices.length === 0;
       find("booths").replaceChildren(...arena.devices.map(([, name], k) => {
+        if (name === "object") return element("span", { hidden: true });
         const square = element("i");
         square.style.background = content.colours[name] || name;
         const button = element("button", { type: "button" }, square, element("span"));
@@ -98,7 +99,7 @@ function say(place, text) {
 }
 
 function nameOf(deed, subject) {
-  return deed.endsWith("block") ? `the ${arena.devices[subject]?.[1]} booth` : `robot ${subject}`;
+  return deed.endsWith("block") ? `booth ${arena.names[subject]}` : `robot ${subject}`;
 }
 
 function ask(wish) {
@@ -123,7 +124,7 @@ function draw(time) {
   arena.stale = moving;
   const shown = blended(time);
   arena.draw(shown, now.frame, time / 1000);
-  showLegend(find("legend"), hello.scene.roles, hello.styles, now.frame.role);
+  showLegend(find("legend"), hello.scene, hello.styles, now.frame, hello.colours);
 }
 
 function list() {
@@ -164,7 +165,8 @@ function showBlocked() {
   }
   arena.blocked = blocked;
   [...find("booths").children].forEach((button, k) => {
-    say(button.lastChild, `${blocked.has(k) ? "Unblock" : "Block"} ${arena.devices[k][1]}`);
+    if (button.hidden) return;
+    say(button.lastChild, `${blocked.has(k) ? "Unblock" : "Block"} ${arena.names[k]}`);
     button.setAttribute("aria-pressed", blocked.has(k));
   });
 }
