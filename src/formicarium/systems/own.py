@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from formicarium.physics.floor import corners
 from formicarium.systems.registry import System, Targets
 from formicarium.trial.film import Film, shoot_robots
-from formicarium.trial.record import Polygon, Scene, Span, Timeline, Trial
+from formicarium.trial.record import FLOOR, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.showing import byte, colour, degrees, fields, metres, reading_sections, said
 from formicarium.trial.simulate import Album, simulate
 from formicarium.trial.swarm.arena import Arena, read_arena
@@ -26,6 +26,7 @@ from formicarium.trial.swarm.state import SwarmState, begin_swarm
 from formicarium.trial.touching import touch_robot
 from formicarium.trial.watching import Impossible, Inspection, Intervention, Section, Watching
 
+LAMP_SHAPE = 0.03 * np.array([(-1, 0), (0, -1), (1, 0), (0, 1)])  # m, how a lamp is drawn
 Outcome = Callable[[Any, SwarmState, np.ndarray], Mapping[str, Any]]
 
 
@@ -90,6 +91,7 @@ def assemble(swarm: Swarm) -> System:
         moment = int(film.taken[0])
         shoot_robots(state, film)
         film.shots["role"][moment] = roles_of(state)
+        film.shots["colour"][moment] = state.commands["colour"]
         film.shots["carried"][moment] = carried_of(state)
         film.lit[moment] = lit(state)
 
@@ -149,7 +151,9 @@ def check(swarm: Swarm) -> None:
     missing = [group for group in ("swarm", "epuck", "sight", "arena", "behaviour") if group not in
                swarm.parameters.model_fields]  # fmt: skip
     if missing:
-        raise ValueError(f"{swarm.name}: parameters have no group {' and no '.join(missing)}: derive from SwarmParameters")
+        raise ValueError(
+            f"{swarm.name}: parameters have no group {' and no '.join(missing)}: derive from SwarmParameters"
+        )
     for kinds, wanted in ((swarm.kinds, ("ROLE", "DIED")), (swarm.roles, ())):
         if [int(kind) for kind in kinds] != list(range(len(kinds))) or not len(kinds):
             raise ValueError(f"{swarm.name}: {kinds.__name__} must number its members 0, 1, 2, ...")
@@ -165,19 +169,21 @@ def carried_of(state: SwarmState) -> np.ndarray:
 
 
 def lit(state: SwarmState) -> np.ndarray:
-    """Return which booths are lit."""
-    return (state.booths.occupied == 0) & (state.booths.blocked == 0)
+    """Return which booths are lit; lamps always are."""
+    booths = (state.booths.occupied == 0) & (state.booths.blocked == 0)
+    return np.concatenate([booths, np.ones(len(state.lamps), bool)])
 
 
 def scene_of(arena: Arena, parameters: Any, roles: tuple[str, ...]) -> Scene:
     """Return what stands still: walls, obstacles and booths; floor where there is any."""
     polygons = [Polygon(np.array(arena.outline), "wall")]
-    polygons += [Polygon(corners(patch), f"floor {patch.shade:.2f}") for patch in arena.patches()]
+    polygons += [Polygon(corners(patch), f"{FLOOR}{patch.shade:.2f}") for patch in arena.patches()]
     polygons += [Polygon(block, "wall") for block in arena.solids]
     segments = arena.segments()
     for k, booth in enumerate(arena.booth):
         own = segments[segments.group == k + 1]
         polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), booth.colour))
+    polygons += [Polygon(np.array(lamp.at) + LAMP_SHAPE, "yellow") for lamp in arena.lamp]
     epuck = parameters.epuck
     ranges = (("camera", epuck.camera_range), ("radio", epuck.radio_range))
     return Scene(tuple(polygons), epuck.radius, roles, parameters.swarm.cycle_time, ranges)
@@ -219,7 +225,9 @@ def sections_of(state: SwarmState, i: int) -> tuple[Section, ...]:
 
 
 def _bytes(title: str, contents: Mapping[str, np.ndarray]) -> Section:
-    return Section(title, ("from", "bytes"), tuple((head, bytes(content).hex(" ")) for head, content in contents.items()))
+    return Section(
+        title, ("from", "bytes"), tuple((head, bytes(content).hex(" ")) for head, content in contents.items())
+    )
 
 
 def intervene(state: SwarmState, intervention: Intervention) -> None:

@@ -121,7 +121,9 @@ class Arena(_Part):
         pieces = [outline(_points(corners), tall=not _convex(corners))]
         pieces += [booth_outline(x, y, way, WALL_FRICTION, k + 1) for k, (x, y, way) in enumerate(self.booths)]
         first = len(self.booth) + 1
-        pieces += [chain(_points([*block, block[0]]), tall=True, group=first + k) for k, block in enumerate(self.solids)]
+        pieces += [
+            chain(_points([*block, block[0]]), tall=True, group=first + k) for k, block in enumerate(self.solids)
+        ]
         return joined(*pieces)
 
     def patches(self) -> np.recarray:
@@ -150,7 +152,9 @@ def read_arena(text: str, said: str = "arena") -> Arena:
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
-        raise BadArena(f"{said}: {place}: {first['msg'].removeprefix('Value error, ')} (got {first['input']!r})") from None
+        raise BadArena(
+            f"{said}: {place}: {first['msg'].removeprefix('Value error, ')} (got {first['input']!r})"
+        ) from None
 
 
 def _plan(value: Any) -> Any:

@@ -170,5 +170,7 @@ def is_free(segments: np.recarray, x: float, y: float) -> bool:
         return False
     with np.errstate(divide="ignore", invalid="ignore"):
         crossed = ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
-    odd = np.bincount(segments.group, weights=crossed).astype(int) % 2  # a ray leaves a closed line an odd number of times
+    odd = (
+        np.bincount(segments.group, weights=crossed).astype(int) % 2
+    )  # a ray leaves a closed line an odd number of times
     return bool(odd[0] == 1 and not odd[1:].any())

@@ -1,4 +1,4 @@
-"""One cycle of one robot: walk until enough others are near, wait, and sometimes leave."""
+"""One cycle of one robot: walk until enough others are near, rest, and sometimes leave."""
 
 from enum import IntEnum
 
@@ -15,7 +15,7 @@ class Role(IntEnum):
     """What a robot is at."""
 
     WALKING = 0
-    WAITING = 1
+    RESTING = 1
 
 
 # What a robot remembers. Everything starts at zero, but for draws.
@@ -43,12 +43,13 @@ def decide(reading, memory, command, table, epuck, cycle_time):
         cycle_time: seconds.
     """
     be_quiet(command)
+    command.payload[0, 0] = reading.identity  # four bytes to say what one likes
     broadcast(command)
     neighbours = near(reading, table.near)
     if memory.role == Role.WALKING:
         walk(reading, memory, command, table, epuck, cycle_time)
         if chance(memory, table.stay * neighbours * cycle_time):
-            memory.role = Role.WAITING
+            memory.role = Role.RESTING
     else:
         stop(command)
         command.colour = Colour.GREEN

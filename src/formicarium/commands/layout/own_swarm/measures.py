@@ -15,23 +15,23 @@ class EventKind(IntEnum):
 
     ROLE = 0  # a robot's role has changed; value: new, detail: old (note_roles)
     DIED = 1  # (note_roles)
-    GATHERED = 2  # three quarters of the living robots wait; value: how many
+    GATHERED = 2  # three quarters of the living robots rest; value: how many
 
 
 @compiled
 def note(state):
-    """Log changes of role, and the first moment at which most robots wait."""
+    """Log changes of role, and the first moment at which most robots rest."""
     note_roles(state)
     clock = state.clock[0]
     alive = 0
-    waiting = 0
+    resting = 0
     for i in range(len(state.robots)):
         if state.robots[i].alive == 1:
             alive += 1
-            if state.memories[i].role == Role.WAITING:
-                waiting += 1
-    if 4 * waiting >= 3 * alive:
-        write_event(clock, state.events, EventKind.GATHERED, 0, 0, waiting, 0)
+            if state.memories[i].role == Role.RESTING:
+                resting += 1
+    if 4 * resting >= 3 * alive:
+        write_event(clock, state.events, EventKind.GATHERED, 0, 0, resting, 0)
         clock.finished = 1
 
 
@@ -40,7 +40,7 @@ def outcome(parameters, state, events):
     gathered = events[events["kind"] == EventKind.GATHERED]["cycle"]
     return {
         "time_gathered_s": (float(gathered[0]) + 1.0) * parameters.swarm.cycle_time if len(gathered) else None,
-        "waiting": int(((state.memories.role == Role.WAITING) & (state.robots.alive == 1)).sum()),
+        "resting": int(((state.memories.role == Role.RESTING) & (state.robots.alive == 1)).sum()),
         "spread_m": float(np.hypot(state.world.bodies.x.std(), state.world.bodies.y.std())),
         "cause": None if len(gathered) else "did not gather",
     }

@@ -16,9 +16,9 @@ class Behaviour(Table):
 
     speed: float = number(0.08, "m/s", "of a walk", gt=0, le=0.12)
     turn_rate: float = number(2.0, "rad/s", "of a turn away from what is ahead", gt=0, le=4)
-    near: float = number(0.30, "m", "who is heard from nearer than this counts as a neighbour", gt=0, le=0.8)
-    stay: float = number(0.15, "1/s", "rate at which a walking robot stops, times the number of its neighbours", ge=0)
-    leave: float = number(0.20, "1/s", "rate at which a waiting robot leaves, over (1 + neighbours)^2", ge=0)
+    near: float = number(0.20, "m", "who is heard from nearer than this counts as a neighbour", gt=0, le=0.8)
+    stay: float = number(0.05, "1/s", "rate at which a walking robot stops, times the number of its neighbours", ge=0)
+    leave: float = number(0.10, "1/s", "rate at which a resting robot leaves, over (1 + neighbours)^2", ge=0)
 
 
 class Parameters(SwarmParameters):

@@ -16,7 +16,6 @@ def test_robots_that_never_leave_gather_sooner():
     usual = system.configure()
     loyal = usual.model_copy(update={"behaviour": usual.behaviour.model_copy(update={"leave": 0.0})})
     times = [
-        sum(system.run(parameters, seed).outcome["duration_s"] for seed in range(1, 6))
-        for parameters in (usual, loyal)
+        sum(system.run(parameters, seed).outcome["duration_s"] for seed in range(1, 6)) for parameters in (usual, loyal)
     ]
     assert times[1] < times[0]

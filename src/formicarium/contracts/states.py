@@ -1,14 +1,15 @@
-"""States of any registered system: begun, recorded on the way, copied, compared leaf by leaf, turned and shifted."""
+"""States of any system: begun, recorded on the way, copied, compared leaf by leaf, turned and shifted."""
 
 import itertools
 import math
 from collections.abc import Iterator
 from typing import Any
+from unittest import SkipTest
 
 import numpy as np
 
 from formicarium.physics.world import ADJUSTABLE, make_world
-from formicarium.systems.registry import resolve
+from formicarium.systems.registry import System, resolve
 
 
 def copy_of(state: Any) -> Any:
@@ -20,11 +21,11 @@ def recorded(name: str, every: int, parameters: Any = None, first_seed: int = 1)
     """Yield copies of the states of trials ``first_seed``, ``first_seed`` + 1, ..., one every so many cycles."""
     system = resolve(name)
     for seed in itertools.count(first_seed):
-        state = system.begin(parameters or system.configure(), seed)
+        state = begun(system, parameters or system.configure(), seed)
         clock = state.clock[0]
         while not clock.finished and clock.cycle < clock.last_cycle:
             yield copy_of(state)
-            system.advance(state, every)
+            advanced(system, state, every)
             clock.event_count = 0
 
 
@@ -94,3 +95,41 @@ def turned(state: Any, turn: float, shift: tuple[float, float]) -> Any:
         elif isinstance(part, np.ndarray):
             parts[name] = turned_records(part, turn, shift)
     return state._replace(**parts)
+
+
+def shortened(system: System, parameters: Any, longest: float) -> Any:
+    """Return the parameters with a time cap of at most ``longest`` seconds, if the system has one."""
+    swarm = getattr(parameters, "swarm", None)
+    if swarm is None or not hasattr(swarm, "time_cap"):
+        return parameters
+    cap = min(float(swarm.time_cap), longest)
+    return parameters.model_copy(update={"swarm": swarm.model_copy(update={"time_cap": cap})})
+
+
+def length_of(system: System, parameters: Any, seed: int, most: int) -> int:
+    """Return how many cycles trial ``seed`` has, counted up to ``most``."""
+    state = begun(system, parameters, seed)
+    clock = state.clock[0]
+    clock.last_cycle = min(int(clock.last_cycle), most)
+    while not clock.finished and clock.cycle < clock.last_cycle:
+        advanced(system, state, min(100, int(clock.last_cycle - clock.cycle)))
+        clock.event_count = 0
+    return int(clock.cycle)
+
+
+def begun(system: System, parameters: Any, seed: int, **options: Any) -> Any:
+    """Return the state before the first cycle.
+
+    Raises:
+        SkipTest: if the system does not show its states.
+    """
+    if system.begin is None or system.advance is None:
+        raise SkipTest(f"{system.name} has no begin and advance")
+    return system.begin(parameters, seed, **options)
+
+
+def advanced(system: System, state: Any, cycles: int) -> Any:
+    """Let so many cycles pass; return the state, which is changed in place."""
+    assert system.advance is not None
+    system.advance(state, cycles)
+    return state
