@@ -53,4 +53,25 @@ CONTRACTS = (
     a_changed_state_is_noticed,
 )
 
-__all__ = ["CONTRACTS", "Broken", *(contract.__name__ for contract in CONTRACTS)]
+__all__ = [
+    "CONTRACTS",
+    "Broken",
+    "a_changed_state_is_noticed",
+    "compiled_equals_interpreted",
+    "deeds_are_done_again",
+    "deeds_that_cannot_be_done",
+    "frames_show_the_state",
+    "going_back_is_exact",
+    "heard_from_whom_is_drawn",
+    "looking_changes_nothing",
+    "looks_of_any_length",
+    "no_compass",
+    "no_dead_sensor",
+    "own_identity_and_clock",
+    "own_noise",
+    "same_seed_same_trial",
+    "seed_decides_the_start",
+    "storage_does_not_matter",
+    "the_dead_are_still",
+    "watching_gives_the_same_bytes",
+]

@@ -49,7 +49,7 @@ def looking_changes_nothing(name: str) -> None:
     watched = system.run(small(system), 8, frames_every=0.7, watch=lambda *seconds: told.append(seconds))
     require(bytes_of(watched) == bytes_of(alone), "a run with frames differs from one without")
     require(alone.frames is None and watched.frames is not None, "frames come when asked for, and only then")
-    ended = alone.outcome.get("duration_s")
+    ended: Any = alone.outcome.get("duration_s")
     require(told and ended is not None, "a run tells how far it is, and its row has duration_s")
     require(abs(told[-1][0] - float(ended)) < 1e-6, f"told to end at {told[-1][0]} s, duration_s is {ended}")
 

@@ -32,7 +32,7 @@ def recorded(name: str, every: int, parameters: Any = None, first_seed: int = 1)
 def leaves(value: Any, path: str = "") -> Iterator[tuple[str, np.ndarray]]:
     """Yield every plain array inside a state, with its path (padding between fields is nobody's)."""
     if isinstance(value, tuple):
-        for name, part in zip(value._fields, value, strict=True):
+        for name, part in zip(value._fields, value, strict=True):  # type: ignore[attr-defined]
             yield from leaves(part, f"{path}.{name}")
     elif value.dtype.names:
         for name in value.dtype.names:

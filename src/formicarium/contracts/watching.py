@@ -54,7 +54,12 @@ def watching_gives_the_same_bytes(name: str) -> None:
         )
         require(packets.max(initial=0) < ROBOTS and (packets[:, 0] != packets[:, 1]).all(), "packets name no robots")
         told = session.inspect(int(draws.choice(session.identity)))
-        sound = all(len(row) == len(section.columns) for section in told.sections for row in section.rows)
+        require(told is not None, "inspect knows nothing of a robot")
+        sound = all(
+            len(row) == len(section.columns)
+            for section in told.sections  # type: ignore[union-attr]
+            for row in section.rows
+        )
         require(sound, "inspect: a row of a section has not as many cells as columns")
         if draws.uniform() < 0.2:
             here = session.cycle

@@ -84,7 +84,7 @@ def assemble(swarm: Swarm) -> System:
         return Trial(row(parameters, state, events), events, frames, scene(parameters, state))
 
     def roles_of(state: SwarmState) -> np.ndarray:
-        roles = state.memories["role"] if "role" in state.memories.dtype.names else 0
+        roles = state.memories["role"] if "role" in (swarm.memory.names or ()) else 0
         return np.where(state.robots.alive == 1, roles, dead)
 
     def shoot(state: SwarmState, film: Film) -> None:
@@ -163,7 +163,7 @@ def check(swarm: Swarm) -> None:
 
 def carried_of(state: SwarmState) -> np.ndarray:
     """Return the number that is written on each robot."""
-    if "carried" in state.memories.dtype.names:
+    if "carried" in (state.memories.dtype.names or ()):
         return np.asarray(state.memories["carried"])
     return np.zeros(len(state.robots), "i8")
 

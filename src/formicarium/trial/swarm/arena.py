@@ -22,6 +22,7 @@ Metres and degrees, x to the right, y up, angles counter-clockwise::
 
 import math
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -57,7 +58,7 @@ class Wall(_Part):
     @field_validator("line")
     @classmethod
     def _drawn(cls, line: tuple[Place, ...]) -> tuple[Place, ...]:
-        if any(start == end for start, end in zip(line, line[1:])):
+        if any(start == end for start, end in pairwise(line)):
             raise ValueError("has two equal points in a row")
         return line
 
@@ -118,7 +119,7 @@ class Arena(_Part):
     def segments(self) -> np.recarray:
         """Return the scenery: outline, then booth k as group k + 1, then obstacles and walls."""
         corners = np.array(self.outline)
-        pieces = [outline(_points(corners), tall=not _convex(corners))]
+        pieces: list[np.ndarray] = [outline(_points(corners), tall=not _convex(corners))]
         pieces += [booth_outline(x, y, way, WALL_FRICTION, k + 1) for k, (x, y, way) in enumerate(self.booths)]
         first = len(self.booth) + 1
         pieces += [
@@ -196,7 +197,7 @@ def _convex(corners: np.ndarray) -> bool:
 def _legs(wall: Wall) -> list[np.ndarray]:
     points = np.array(wall.line)
     legs = []
-    for start, end in zip(points, points[1:]):
+    for start, end in pairwise(points):
         along = (end - start) / math.hypot(*(end - start))
         aside = 0.5 * wall.thickness * np.array([-along[1], along[0]])
         legs.append(np.array([start - aside, end - aside, end + aside, start + aside]))
