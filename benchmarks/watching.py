@@ -23,7 +23,7 @@ from formicarium.systems.registry import resolve
 from formicarium.views.live.player import Player
 from formicarium.views.live.server import Audience, application, listening
 from formicarium.views.live.session import Session
-from formicarium.views.live.wire import Pause, Seek, Show, Speed, look_of
+from formicarium.views.live.wire import Pause, Seek, Show, Speed, greeting
 from formicarium.views.recording.recorded import record_trial
 
 SYSTEM = resolve("mark-i3")
@@ -40,9 +40,7 @@ class Served:
         self.session = Session(SYSTEM, SYSTEM.configure(setting=setting, robots=robots), seed)
         self.session.warm_up()
         self.player = Player(self.session, speed, playing, lambda: {"note": ""})
-        hello = {"title": f"mark-i3, seed {seed}", **look_of(self.session.scene)}
-        hello |= {"identity": self.session.identity.tolist(), "kinds": list(SYSTEM.kinds)}
-        hello |= {"last_cycle": self.session.last_cycle, "touchable": True}
+        hello = greeting(self.session, f"mark-i3, seed {seed}", SYSTEM.kinds)
         audience = Audience(self.player, hello, SYSTEM.watching.tell, SYSTEM.kinds)
         listener = listening("127.0.0.1", 0)
         self.address = f"127.0.0.1:{listener.getsockname()[1]}"
