@@ -363,7 +363,7 @@ export class Arena {
         context.font = `${11 * this.ratio}px system-ui, sans-serif`;
         context.textAlign = "center";
         context.textBaseline = side > 0 ? "bottom" : "top";
-        context.fillText(`${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
+        this.write(context, `${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
       });
     }
   }
@@ -404,7 +404,16 @@ export class Arena {
     context.textBaseline = "bottom";
     for (let i = 0; i < x.length; i++) {
       const [px, py] = this.at(x[i] + this.scene.radius, y[i] + this.scene.radius);
-      context.fillText(this.identity[i], px, py);
+      this.write(context, this.identity[i], px, py);
     }
+  }
+
+  // A text that stays readable on whatever it lies on.
+  write(context, text, px, py) {
+    context.strokeStyle = this.floor;
+    context.lineWidth = 3 * this.ratio;
+    context.lineJoin = "round";
+    context.strokeText(text, px, py);
+    context.fillText(text, px, py);
   }
 }

@@ -271,6 +271,9 @@ canvas.onpointerup = () => {
   arena.held = pressed = null;
   arena.stale = true;
 };
+canvas.addEventListener("touchstart", (event) => { // or the page would be scrolled instead of the robot dragged
+  if (arena.robotAt(arena.metres(event.touches[0]), 2.5) >= 0) event.preventDefault();
+}, { passive: false });
 canvas.onwheel = (event) => {
   event.preventDefault();
   arena.magnify(Math.exp(-event.deltaY / 400), arena.metres(event));
