@@ -15,13 +15,19 @@ Words = Mapping[str, Callable[[Any], str]]  # field -> how its value is written
 WRONG_CONTENT = 10.0  # cost of a sender that says something else than what was heard
 
 
+def has_radio(state: Any) -> bool:
+    """Tell whether the robots of a system hear packets at all."""
+    readings = getattr(state, "readings", None)
+    return readings is not None and "packets" in readings.dtype.names
+
+
 def packets_of(state: Any) -> np.ndarray:
     """Return who heard whom in the last cycle: (P, 2) columns of receiver and sender, as frames are ordered.
 
     A robot does not know who sent what it hears, but a viewer can tell: the sender is the robot that says just
     that in the direction from which it came. Robots without radio hear nobody.
     """
-    if "packets" not in (state.readings.dtype.names or ()):
+    if not has_radio(state):
         return np.zeros((0, 2), "u2")
     readings, robots, bodies = (np.asarray(part) for part in (state.readings, state.robots, state.world.bodies))
     heard = np.arange(readings["packets"].shape[1]) < readings["packet_count"][:, None]

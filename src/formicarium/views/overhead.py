@@ -17,8 +17,7 @@ from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, PAPER, clock, c
 
 WIDTH, HEIGHT = 8.0, 6.4  # inches
 MARGIN = 0.06  # metres around the arena
-# The thing that a robot carries: a box beside its middle, in radii of the robot.
-BOX = Path(np.array([(0.25, 0.25), (1.15, 0.25), (1.15, 1.15), (0.25, 1.15), (0.25, 0.25)]))
+BOX = 0.45 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)])  # what a robot carries, in radii of the robot
 
 
 class Overhead:
@@ -66,7 +65,8 @@ class Overhead:
         self.headings.set_segments(list(ends))
         self.letters.set(offsets=places, facecolors=self._inks[role])
         self.letters.set_paths([self._letter(*pair) for pair in zip(role, frames.carried[index])])
-        self.loads.set_offsets(places[(frames.carried[index] > 0) & bool(self.scene.load)])
+        loaded = (frames.carried[index] > 0) & bool(self.scene.load)
+        self.loads.set_offsets((places - radius * forward)[loaded])
         self.chain.set_segments(self._links(frames, index, places))
         self._light(frames.lit[index])
         self.time.set_text(clock(frames.cycle[index] * self.scene.cycle_time))
@@ -164,7 +164,7 @@ class Overhead:
             zorder=6,
         )
         self.loads = PathCollection(
-            [Path(BOX.vertices * self.scene.radius)],
+            [Path(BOX * self.scene.radius)],
             offsets=np.zeros((0, 2)),
             offset_transform=self.axes.transData,
             facecolors=NAMED[OBJECT],

@@ -87,8 +87,9 @@ def inspect(state: Any, identity: int) -> Inspection:
         ("partition with probability", f"{float(memory['probability']):.3f}"),
     )
     wheels = tuple((side, f"{float(command[side]):.4f} m/s") for side in ("left", "right"))
-    leave = ("target", "harvest", "store", "whole", "probability")
-    rows = (*fields(memory, words, leave), ("target", aim if target["known"] else "none"))
+    streams = ("walks", "choices", "patience")
+    shown = fields(memory, words, (*streams, "target", "harvest", "store", "whole", "probability"))
+    rows = (*shown, ("target", aim if target["known"] else "none"), *((name, f"{memory[name]:#x}") for name in streams))
     return Inspection(
         identity,
         doing + load,
@@ -122,7 +123,6 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
         **dict.fromkeys((*moments, "leaving_since", "roam_until", "deed_cycle"), moment),
         **dict.fromkeys(("compass", "lamp", "exit_heading", "roam_heading", "turn"), degrees),
         **dict.fromkeys(("travelled", "forward"), metres),
-        **dict.fromkeys(("walks", "choices", "patience"), lambda value: f"{int(value):#x}"),
         **dict.fromkeys(("loaded", "waiting", "oriented"), lambda value: "yes" if value else "no"),
         "state": lambda value: State(int(value)).name.lower(),
         "label": lambda value: Label(int(value)).name.lower(),

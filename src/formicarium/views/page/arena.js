@@ -50,6 +50,7 @@ export class Arena {
     this.middle ??= [(this.low[0] + this.high[0]) / 2, (this.low[1] + this.high[1]) / 2];
     this.ratio = ratio;
     this.ink = this.get("--ink");
+    this.floor = this.get("--floor");
     this.pale = this.get("--pale");
     this.accent = this.get("--accent");
     this.stamps.clear();
@@ -207,6 +208,8 @@ export class Arena {
       const own = this.colours[name] || name, colour = lit[k] === 2 ? this.colours.red : own;
       const around = this.hull(points);
       this.outline(context, around);
+      context.fillStyle = this.floor;
+      context.fill(); // a booth may stand in a wall
       context.fillStyle = colour;
       context.globalAlpha = lit[k] ? 0.45 : 0.05;
       context.fill();
@@ -221,10 +224,11 @@ export class Arena {
       const middle = around.reduce(([a, b], [x, y]) => [a + x / around.length, b + y / around.length], [0, 0]);
       const [px, py] = this.at(...middle);
       context.fillStyle = lit[k] && !bent ? "#fff" : this.ink;
-      context.font = `700 ${Math.max(11 * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
+      const text = name[0].toUpperCase() + (this.names[k].split(" ")[1] ?? "");
+      context.font = `700 ${Math.max((13 - 2 * text.length) * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
       context.textAlign = "center";
       context.textBaseline = "middle";
-      context.fillText(name[0].toUpperCase() + (this.names[k].split(" ")[1] ?? ""), px, py);
+      context.fillText(text, px, py);
       if (this.blocked.has(k)) {
         context.strokeStyle = this.ink;
         context.lineWidth = 3 * this.ratio;
@@ -300,7 +304,7 @@ export class Arena {
       const [px, py] = this.at(x[i], y[i]);
       context.drawImage(this.stamp(role[i], text), px - across / 2, py - across / 2, across, across);
     }
-    if (this.scene.load) this.drawLoads(context, x, y, carried);
+    if (this.scene.load) this.drawLoads(context, x, y, heading, carried);
     const ways = [];
     for (let i = 0; i < count; i++) {
       const [dx, dy] = [Math.cos(heading[i]) * radius, Math.sin(heading[i]) * radius];
@@ -315,17 +319,17 @@ export class Arena {
     this.drawn += 1;
   }
 
-  // What robots carry: a box beside the middle, so that the letter stays readable.
-  drawLoads(context, x, y, carried) {
+  // What robots carry: a box at the back, so that letter and heading stay readable.
+  drawLoads(context, x, y, heading, carried) {
     const radius = this.scene.radius, side = 0.9 * radius * this.scale;
     context.fillStyle = this.colours.object;
     context.strokeStyle = "#22262b";
     context.lineWidth = this.ratio;
     for (let i = 0; i < x.length; i++) {
       if (!carried[i]) continue;
-      const [px, py] = this.at(x[i] + 0.25 * radius, y[i] + 1.15 * radius);
-      context.fillRect(px, py, side, side);
-      context.strokeRect(px, py, side, side);
+      const [px, py] = this.at(x[i] - Math.cos(heading[i]) * radius, y[i] - Math.sin(heading[i]) * radius);
+      context.fillRect(px - side / 2, py - side / 2, side, side);
+      context.strokeRect(px - side / 2, py - side / 2, side, side);
     }
   }
 
@@ -359,7 +363,7 @@ export class Arena {
         context.font = `${11 * this.ratio}px system-ui, sans-serif`;
         context.textAlign = "center";
         context.textBaseline = side > 0 ? "bottom" : "top";
-        context.fillText(`${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
+        this.write(context, `${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
       });
     }
   }
@@ -400,7 +404,16 @@ export class Arena {
     context.textBaseline = "bottom";
     for (let i = 0; i < x.length; i++) {
       const [px, py] = this.at(x[i] + this.scene.radius, y[i] + this.scene.radius);
-      context.fillText(this.identity[i], px, py);
+      this.write(context, this.identity[i], px, py);
     }
+  }
+
+  // A text that stays readable on whatever it lies on.
+  write(context, text, px, py) {
+    context.strokeStyle = this.floor;
+    context.lineWidth = 3 * this.ratio;
+    context.lineJoin = "round";
+    context.strokeText(text, px, py);
+    context.fillText(text, px, py);
   }
 }

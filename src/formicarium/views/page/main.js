@@ -25,15 +25,17 @@ const told = {
         if (name === "object") return element("span", { hidden: true });
         const square = element("i");
         square.style.background = content.colours[name] || name;
-        const button = element("button", { type: "button" }, square, element("span"));
+        const numbered = arena.names[k] !== name; // 14 booths have no room for whole words
+        const text = numbered ? name[0].toUpperCase() + arena.names[k].split(" ")[1] : name;
+        const button = element("button", { type: "button", ariaLabel: `Block booth ${arena.names[k]}` }, square, text);
         button.onclick = () => ask({ do: arena.blocked.has(k) ? "unblock" : "block", subject: k });
         return button;
       }));
       showBlocked();
     }
+    document.querySelector("[data-layer=packets]").hidden = !content.radio;
     if (!content.touchable) {
       find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
-      document.querySelector("[data-layer=packets]").hidden = true;
     }
     if (content.identity.length > 80) setLayer("trails", false);
   },
@@ -165,8 +167,6 @@ function showBlocked() {
   }
   arena.blocked = blocked;
   [...find("booths").children].forEach((button, k) => {
-    if (button.hidden) return;
-    say(button.lastChild, `${blocked.has(k) ? "Unblock" : "Block"} ${arena.names[k]}`);
     button.setAttribute("aria-pressed", blocked.has(k));
   });
 }
@@ -271,6 +271,9 @@ canvas.onpointerup = () => {
   arena.held = pressed = null;
   arena.stale = true;
 };
+canvas.addEventListener("touchstart", (event) => { // or the page would be scrolled instead of the robot dragged
+  if (arena.robotAt(arena.metres(event.touches[0]), 2.5) >= 0) event.preventDefault();
+}, { passive: false });
 canvas.onwheel = (event) => {
   event.preventDefault();
   arena.magnify(Math.exp(-event.deltaY / 400), arena.metres(event));

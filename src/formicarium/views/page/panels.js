@@ -31,10 +31,10 @@ const OPEN = new Set(["Memory", "Messages heard", "Messages sent"]);
 export function showInspection(place, { sections }) {
   const known = new Map([...place.querySelectorAll("details")].map((d) => [d.dataset.title, d]));
   const scrolled = place.scrollTop;
-  const made = sections.map((section) => {
+  const made = sections.map((section, k) => {
     const before = known.get(section.title);
     const size = section.rows.length ? "" : "none";
-    const details = element("details", { open: before ? before.open : OPEN.has(section.title) },
+    const details = element("details", { open: before ? before.open : !k || OPEN.has(section.title) },
       element("summary", {}, section.title, " ", element("small", { textContent: size })));
     details.dataset.title = section.title;
     if (section.rows.length) details.append(table(section));
