@@ -21,14 +21,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numba
-from numba.core import serialize
-from numba.core.caching import FunctionCache
-from platformdirs import user_cache_dir
-
 from formicarium.sources import PACKAGE, hash_of, own_files
 
 INTERPRETED = os.environ.get("FORMICARIUM_INTERPRETED", "") not in ("", "0")
+
+if not INTERPRETED:  # a robot of flesh, or a debugger, has no use for a compiler
+    import numba
+    from numba.core import serialize
+    from numba.core.caching import FunctionCache
+    from platformdirs import user_cache_dir
 
 # The rooms whose code decides results. Views, commands, campaigns and statistics only look at results.
 DECIDING = (

@@ -13,19 +13,24 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from formicarium import __version__
-from formicarium.campaigns.errors import CrewError, DesignError, Futile
+from formicarium.campaigns.errors import CrewError, DesignError, Explained, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
+from formicarium.commands.check import check
+from formicarium.commands.debug import debug
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
+from formicarium.commands.doctor import doctor
 from formicarium.commands.errors import UserError
 from formicarium.commands.export import export
 from formicarium.commands.movie import movie
 from formicarium.commands.new import new
+from formicarium.commands.onboard import onboard
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
+from formicarium.commands.tune import tune
 from formicarium.commands.watch import watch
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
@@ -61,6 +66,11 @@ app.command(describe)
 app.command(campaign)
 app.command(study)
 app.command(new)
+app.command(check)
+app.command(debug)
+app.command(tune)
+app.command(onboard)
+app.command(doctor)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -79,7 +89,7 @@ def exit_code(arguments: Sequence[str]) -> int:
         return _say(f"{_plain(error)} See: {command} --help", 2)
     except (UserError, DesignError, StoreError) as error:
         return _say(str(error), 2)
-    except (CrewError, Futile) as error:
+    except (CrewError, Explained, Futile) as error:
         return _say(str(error), 1)
     except KeyboardInterrupt as interruption:
         return _say(str(interruption) or "interrupted", 130)

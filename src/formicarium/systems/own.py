@@ -5,6 +5,7 @@ A memory may have fields with a meaning for everybody: ``role`` (number of a rol
 small number, written on the robot) and ``draws`` (the robot's own random stream).
 """
 
+import json
 import sys
 from collections.abc import Callable, Mapping
 from enum import IntEnum
@@ -13,20 +14,28 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import BaseModel
 
+from formicarium.campaigns.errors import Explained
 from formicarium.physics.floor import corners
+from formicarium.systems.diagnosis import explain
 from formicarium.systems.registry import System, Targets
 from formicarium.trial.film import Film, shoot_robots
+from formicarium.trial.onboard import Onboard
 from formicarium.trial.record import FLOOR, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.showing import byte, colour, degrees, fields, metres, reading_sections, said
 from formicarium.trial.simulate import Album, simulate
 from formicarium.trial.swarm.arena import Arena, read_arena
+from formicarium.trial.swarm.guard import guarded
 from formicarium.trial.swarm.parameters import configuring
-from formicarium.trial.swarm.phases import DIED, ROLE
+from formicarium.trial.swarm.phases import DIED, ROLE, act, move, sense, serve
 from formicarium.trial.swarm.state import SwarmState, begin_swarm
 from formicarium.trial.touching import touch_robot
 from formicarium.trial.watching import Impossible, Inspection, Intervention, Section, Watching
 
 LAMP_SHAPE = 0.03 * np.array([(-1, 0), (0, -1), (1, 0), (0, 1)])  # m, how a lamp is drawn
+EXPLAIN = (
+    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from formicarium.systems.diagnosis import explain; "
+    "print(explain(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]), sys.argv[6]))"
+)
 Outcome = Callable[[Any, SwarmState, np.ndarray], Mapping[str, Any]]
 
 
@@ -46,6 +55,9 @@ class Swarm(NamedTuple):
     times: Mapping[str, str] = {}  # column of the row with a run time -> its label
     prepare: Callable[[SwarmState, Any, int], None] | None = None  # (state, parameters, seed) before the first cycle
     settings: Mapping[int, Mapping[str, Mapping[str, Any]]] = {}  # number -> group -> number -> value
+    # For controllers in processes of their own: decide(reading, memory, command, behaviour, epuck, cycle_time), note(state)
+    decide: Callable[..., None] | None = None
+    note: Callable[[SwarmState], None] | None = None
 
 
 def assemble(swarm: Swarm) -> System:
@@ -65,6 +77,8 @@ def assemble(swarm: Swarm) -> System:
         return scene_of(arena_of(parameters), parameters, names)
 
     def row(parameters: Any, state: SwarmState, events: np.ndarray) -> dict[str, Any]:
+        if state.trouble[0].robot:
+            raise explained(parameters, int(state.seed[0]), int(state.trouble[0].cycle), None)
         duration = round(float(state.clock[0].cycle) * parameters.swarm.cycle_time, 6)
         return {"robots": parameters.swarm.robots, **swarm.outcome(parameters, state, events), "duration_s": duration}
 
@@ -79,9 +93,30 @@ def assemble(swarm: Swarm) -> System:
         every = 1 if frames_every is None else max(1, round(frames_every / parameters.swarm.cycle_time))
         album = Album(state, roles_of, carried_of)
         take = None if frames_every is None else lambda state: album.take(state, lit(state))
-        events = simulate(swarm.loop, state, every=every, take=take, watch=watch)
+        try:
+            swarm.loop(state, 0)  # compiles, which takes its time
+            with guarded(explaining(parameters, seed)) as reached:
+
+                def looked(now: float, end: float) -> None:
+                    reached(int(state.clock[0].cycle))
+                    if watch:
+                        watch(now, end)
+
+                events = simulate(swarm.loop, state, every=every, take=take, watch=looked)
+        except Exception as error:
+            raise explained(parameters, seed, int(state.clock[0].cycle), error) from error
         frames = album.frames() if frames_every is not None else None
         return Trial(row(parameters, state, events), events, frames, scene(parameters, state))
+
+    def explaining(parameters: Any, seed: int) -> list[str]:
+        content = parameters.model_dump_json()
+        return [sys.executable, "-c", EXPLAIN, json.dumps(sys.path), place_of(swarm, home), content, str(seed)]
+
+    def explained(parameters: Any, seed: int, cycle: int, error: Exception | None) -> Exception:
+        what = "a command is no number" if error is None else f"{type(error).__name__}: {error}"
+        if isinstance(error, Explained):
+            return error
+        return Explained(explain(place_of(swarm, home), parameters.model_dump_json(), seed, cycle, what))
 
     def roles_of(state: SwarmState) -> np.ndarray:
         roles = state.memories["role"] if "role" in (swarm.memory.names or ()) else 0
@@ -117,6 +152,7 @@ def assemble(swarm: Swarm) -> System:
         role = names[int(roles_of(state)[i])]
         return Inspection(identity, role, sections_of(state, i))
 
+    home = sys._getframe(1).f_globals["__name__"]  # as namedtuple finds who calls it
     names = (*(words(role) for role in swarm.roles), "dead")
     dead = len(names) - 1
     check(swarm)
@@ -133,8 +169,41 @@ def assemble(swarm: Swarm) -> System:
         advance=swarm.loop,
         roles=roles_of,
         watching=Watching(scene, shoot, roll, seen, tell, intervene, row),
-        home=sys._getframe(1).f_globals["__name__"],  # as namedtuple finds who calls it
+        onboard=taken_apart(swarm),
+        home=home,
+        explained=explained,
     )
+
+
+def place_of(swarm: Swarm, home: str) -> str:
+    """Return where the system of a swarm is found: "module:object"."""
+    module = sys.modules[home]
+    for name, value in vars(module).items():
+        if isinstance(value, System) and value.advance is swarm.loop and value.name == swarm.name:
+            return f"{home}:{name}"
+    raise ValueError(f"{swarm.name}: assemble it in a module, and give the system a name there: SYSTEM = assemble(...)")
+
+
+def taken_apart(swarm: Swarm) -> Onboard | None:
+    """Return the loop in the parts before and after the robots' decisions, if the writer names those."""
+    decide, note = swarm.decide, swarm.note
+    if decide is None or note is None:
+        return None
+
+    def after(state: SwarmState) -> None:
+        act(state)
+        move(state)
+        serve(state)
+        note(state)
+        state.clock[0].cycle += 1
+
+    plain = getattr(decide, "py_func", decide)
+    return Onboard(f"{plain.__module__}:{plain.__name__}", given, sense, after)
+
+
+def given(state: SwarmState) -> tuple[Any, ...]:
+    """Return what every robot is told before it is switched on."""
+    return state.behaviour, state.epuck, state.world.settings["cycle_time"]
 
 
 def words(member: IntEnum) -> str:

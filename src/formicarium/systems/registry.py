@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import BaseModel
 
+from formicarium.trial.onboard import Onboard
 from formicarium.trial.record import Timeline, Trial
 from formicarium.trial.watching import Watching
 
@@ -54,7 +55,10 @@ class System(NamedTuple):
     advance: Callable[[Any, int], None] | None = None  # (state, cycles): the compiled loop
     roles: Callable[[Any], np.ndarray] | None = None  # state -> (N,) role numbers as in Scene.roles
     watching: Watching | None = None  # how it is shown and touched; None if it cannot be watched
+    onboard: Onboard | None = None  # its loop taken apart, for controllers in processes of their own
     home: str | None = None  # module whose package holds its sources; that of ``run`` if not given
+    # (parameters, seed, last good cycle, error) -> the error in words that name file, line, robot and cycle
+    explained: Callable[[Any, int, int, Exception | None], Exception] | None = None
 
 
 class UnknownSystem(LookupError):

@@ -1,12 +1,15 @@
 """The phases of a control cycle for a swarm of one's own: those of ``trial.phases``, with every sensor."""
 
+import math
+
 from formicarium.compiled import compiled
 from formicarium.devices.shelter import serve_shelters
 from formicarium.robots.simulated.ground import sense_ground
 from formicarium.robots.simulated.light import sense_lamps
 from formicarium.streams import derived
 from formicarium.trial.events import write_event
-from formicarium.trial.phases import act, move
+from formicarium.trial.phases import act as act_as_commanded
+from formicarium.trial.phases import move
 from formicarium.trial.phases import sense as sense_others
 
 __all__ = ["act", "move", "note_roles", "sense", "serve"]
@@ -26,6 +29,21 @@ def sense(state):
             moment = derived(robot.noise, cycle)
             sense_lamps(state.world.bodies[i], state.lamps, state.sight[0], moment, state.readings[i])
             sense_ground(state.world.bodies[i], state.floor, state.sight[0], moment, state.readings[i])
+
+
+@compiled
+def act(state):
+    """Carry out every Command; one that is no number ends the trial, and is reported when it has ended."""
+    for i in range(len(state.robots)):
+        command = state.commands[i]
+        if state.robots[i].alive == 1 and not (math.isfinite(command.left) and math.isfinite(command.right)):
+            if state.trouble[0].robot == 0:
+                state.trouble[0].robot = state.robots[i].identity
+                state.trouble[0].cycle = state.clock[0].cycle
+                state.clock[0].finished = 1
+            command.left = 0.0
+            command.right = 0.0
+    act_as_commanded(state)
 
 
 @compiled

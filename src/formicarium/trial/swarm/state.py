@@ -22,6 +22,8 @@ UNSEEN = -1
 
 # What the package's observer knows of each robot.
 SEEN = np.dtype([("role", "i8")], align=True)
+# The first command that was no number: it ends the trial.
+TROUBLE = np.dtype([("robot", "i8"), ("cycle", "i8")], align=True)  # robot: identity, 0 while there is none
 NOTHING = np.dtype([("unused", "i8")], align=True)
 
 
@@ -40,6 +42,8 @@ class SwarmState(NamedTuple):
     floor: np.recarray  # PATCH (P,)
     seen: np.recarray  # SEEN (N,), the package's observer's
     notes: np.recarray  # the system's NOTES (N,), its observer's
+    trouble: np.recarray  # TROUBLE (1,)
+    seed: np.ndarray  # (1,)
     queue: np.recarray  # QUEUE (N,), scratch
     events: np.recarray  # EVENT, scratch
     epuck: np.recarray  # tables of numbers, one record each
@@ -103,6 +107,8 @@ def begin_swarm(
         floor=arena.patches(),
         seen=seen,
         notes=records(NOTHING if notes is None else notes, count),
+        trouble=records(TROUBLE, 1),
+        seed=np.array([seed], "i8"),
         queue=records(QUEUE, count),
         events=records(EVENT, 4096 + EVENTS_PER_LOOK * count),
         epuck=p.epuck.record(),

@@ -2,9 +2,9 @@
 
 from formicarium.systems.own import Swarm, assemble
 from own_swarm.arena import make_arena
-from own_swarm.behaviour import MEMORY, Role
+from own_swarm.behaviour import MEMORY, Role, decide
 from own_swarm.loop import run
-from own_swarm.measures import EventKind, outcome
+from own_swarm.measures import EventKind, note, outcome
 from own_swarm.parameters import Parameters
 
 SYSTEM = assemble(
@@ -18,6 +18,8 @@ SYSTEM = assemble(
         outcome=outcome,
         kinds=EventKind,
         roles=Role,
+        decide=decide,  # with note: to run every robot as a process of its own (formicarium onboard)
+        note=note,
         times={"time_gathered_s": "gathered"},  # columns of the row that are run times, for distributions
     )
 )
