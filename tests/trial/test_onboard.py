@@ -22,7 +22,8 @@ def send(line, content):
     if len(answers) == 6:  # the identity is the first
         {deed}
     usual(line, content)
-onboard.send = send
+import formicarium.trial.controller as controller
+controller.send = send
 main(int(sys.argv[1]), int(sys.argv[2]))
 """
 DEEDS = {

@@ -1,4 +1,4 @@
-"""What ``debug`` does: lead a run to a cycle, compiled, and hand its state to an interpreted process with a debugger."""
+"""What ``debug`` does: lead a run to a cycle, compiled, and hand its state to an interpreted process."""
 
 import json
 import os
@@ -16,8 +16,8 @@ from formicarium.systems.registry import System, resolve
 from formicarium.views.live.session import Session
 
 PROGRAM = (
-    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
-    "from formicarium.commands.debugging import step; step(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]))"
+    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from formicarium.commands.debugging import step; "
+    "step(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]))"
 )
 Choice = tuple[int | None, int | None, tuple[str, ...]]  # setting, robots, name=value
 

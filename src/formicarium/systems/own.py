@@ -55,7 +55,8 @@ class Swarm(NamedTuple):
     times: Mapping[str, str] = {}  # column of the row with a run time -> its label
     prepare: Callable[[SwarmState, Any, int], None] | None = None  # (state, parameters, seed) before the first cycle
     settings: Mapping[int, Mapping[str, Mapping[str, Any]]] = {}  # number -> group -> number -> value
-    # For controllers in processes of their own: decide(reading, memory, command, behaviour, epuck, cycle_time), note(state)
+    # For controllers in processes of their own: decide(reading, memory, command, behaviour, epuck, cycle_time)
+    # and note(state), both as the loop calls them.
     decide: Callable[..., None] | None = None
     note: Callable[[SwarmState], None] | None = None
 

@@ -6,6 +6,7 @@ such a package need not install it: what its pyproject.toml announces is known t
 
 import sys
 import tomllib
+import traceback
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -15,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import BaseModel
 
+from formicarium.sources import INSTALLED, PACKAGE
 from formicarium.trial.onboard import Onboard
 from formicarium.trial.record import Timeline, Trial
 from formicarium.trial.watching import Watching
@@ -65,6 +67,25 @@ class UnknownSystem(LookupError):
     """No system of that name is registered."""
 
 
+class BrokenSystem(UnknownSystem):
+    """A system is there but its code cannot be imported; names file and line."""
+
+
+def broken(name: str, error: Exception) -> str:
+    """Say where the code of a system fails while it is imported."""
+    if isinstance(error, SyntaxError):
+        place = f"{error.filename}, line {error.lineno}"
+    else:
+        frames = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith("<")]
+        place = f"{frames[-1].filename}, line {frames[-1].lineno}"
+        own = [frame for frame in frames if not Path(frame.filename).is_relative_to(PACKAGE)]
+        own = [frame for frame in own if not INSTALLED & set(Path(frame.filename).parts)]
+        own = [frame for frame in own if Path(frame.filename).parent.name != "importlib"]
+        if own:
+            place = f"{own[-1].filename}, line {own[-1].lineno}"
+    return f"the system {name!r} cannot be imported: {place}: {type(error).__name__}: {error}"
+
+
 def names() -> list[str]:
     """Return the names of all registered systems, sorted."""
     return sorted({*BUILT_IN, *announced_here(), *(point.name for point in entry_points(group=GROUP))})
@@ -89,9 +110,14 @@ def announced_here() -> dict[str, str]:
 def resolve(name: str) -> System:
     """Return the system called ``name``; "module:object" names one that is not registered.
 
+    After a "+" the name may go on with failures, see ``systems/failing.py``.
+
     Raises:
         UnknownSystem: if nothing is registered under that name; the message lists what is.
     """
+    if "+" in name:
+        plain, *failures = name.split("+")
+        return import_module("formicarium.systems.failing").failing(resolve(plain), failures)
     if name in BUILT_IN:
         module, attribute = BUILT_IN[name].split(":")
         return getattr(import_module(module), attribute)
@@ -114,8 +140,12 @@ def _unregistered(name: str) -> System:
         system = getattr(import_module(module), attribute)
     except (AttributeError, ModuleNotFoundError, TypeError, ValueError) as error:
         if isinstance(error, ModuleNotFoundError) and not f"{module}.".startswith(f"{error.name}."):
-            raise  # the module is there, something that it imports is not
+            raise BrokenSystem(broken(name, error)) from error  # it is there, something that it imports is not
+        if len(traceback.extract_tb(error.__traceback__)) > 1 and not isinstance(error, ModuleNotFoundError):
+            raise BrokenSystem(broken(name, error)) from error
         raise UnknownSystem(f"there is no system {name!r}: {error}") from error
+    except Exception as error:
+        raise BrokenSystem(broken(name, error)) from error
     if not isinstance(system, System):
         raise UnknownSystem(f"{name!r} is no system but a {type(system).__name__}")
     return system

@@ -11,12 +11,11 @@ from importlib import import_module
 import numpy as np
 
 from formicarium.compiled import INTERPRETED
+from formicarium.trial.onboard import layout_of, received, send
 
 
 def main(port: int, identity: int) -> None:
     """Be the controller of a robot until the line is closed."""
-    from formicarium.trial.onboard import layout_of, received, send
-
     np.seterr(all="ignore")  # as compiled code has it
     with socket.create_connection(("127.0.0.1", port)) as line:
         line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
