@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from formicarium.commands.calls.running import run_set as run_set
     from formicarium.commands.calls.running import run_trial as run_trial
     from formicarium.contracts.checking import check_system as check_system
-    from formicarium.systems.registry import names as systems
+    from formicarium.systems.registry import names as system_names
     from formicarium.trial.record import Trial as Trial
 
 __version__ = "0.1.0"
 
 # name -> where it is; schedules and connectivity have their places here too
 _PLACES = {
-    "systems": "formicarium.systems.registry:names",
+    "system_names": "formicarium.systems.registry:names",
     "parameters": "formicarium.commands.calls.running:parameters",
     "run_trial": "formicarium.commands.calls.running:run_trial",
     "run_set": "formicarium.commands.calls.running:run_set",
@@ -49,7 +49,7 @@ __all__ = [
     "run_campaign",
     "run_set",
     "run_trial",
-    "systems",
+    "system_names",
 ]
 
 

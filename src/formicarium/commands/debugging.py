@@ -74,8 +74,9 @@ def _stepped(system: System, state: Any, robot: int) -> bool:
     debugger = Pdb(nosigint=True)
 
     def waiting(frame: Any, event: str, _: Any) -> Any:
-        reading = frame.f_locals.get("reading") if event == "call" else None
-        if reading is not None and getattr(reading, "identity", None) == robot:
+        names = frame.f_locals if event == "call" else {}
+        reading = names.get("reading")
+        if reading is not None and "memory" in names and getattr(reading, "identity", None) == robot:
             print(f"\nrobot {robot}, cycle {int(state.clock[0].cycle)}", flush=True)
             sys.settrace(None)
             debugger.set_trace(frame)

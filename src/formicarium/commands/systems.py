@@ -10,7 +10,7 @@ def systems() -> None:
 
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     for title in ("system", "what it is"):
-        table.add_column(title)
+        table.add_column(title, overflow="fold")
     for name in names():
         try:
             table.add_row(name, resolve(name).summary)

@@ -129,7 +129,7 @@ def score(search: Search, system: System, rows: list[dict[str, Any]]) -> float:
 
 def _run(search: Search, points: list[Point], count: int, first_seed: int, name: str) -> list[list[dict[str, Any]]]:
     design: dict[str, Any] = {
-        "name": f"tune {search.system}: {name}",
+        "name": "tune",
         "system": search.system,
         "replicates": count,
         "rows": points,

@@ -11,7 +11,7 @@ def check_system(system: str, told: Callable[[str, str], None] | None = None) ->
     """Hold every contract against a system; it takes a minute or two.
 
     Args:
-        system: a name of ``systems()``, or "module:object".
+        system: a name of ``system_names()``, or "module:object".
         told: called with a contract's sentence and what came of it, as each is done.
 
     Returns:

@@ -1,6 +1,5 @@
 """Results as arrays and tables."""
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -25,12 +24,11 @@ class Results(NamedTuple):
     system: System
 
     @classmethod
-    def of_set(cls, folder: Path, seeds: Sequence[int] | None = None) -> "Results":
-        """Return the results of a set; of all its runs if no seeds are given."""
+    def of_set(cls, folder: Path, system: System, seeds: Sequence[int]) -> "Results":
+        """Return the results of some runs of a set."""
         rows = table.read(folder / "runs.parquet")
-        if seeds is not None:
-            rows = rows.filter(pc.is_in(rows["seed"], value_set=pa.array(list(seeds), rows["seed"].type)))
-        return cls(folder, rows, find_system(_name(folder)))
+        wanted = pa.array(list(seeds), rows["seed"].type)
+        return cls(folder, rows.filter(pc.is_in(rows["seed"], value_set=wanted)), system)
 
     @property
     def columns(self) -> Mapping[str, np.ndarray]:
@@ -51,17 +49,22 @@ class Results(NamedTuple):
         return trial_of(rows[seed], table.read(events), kept, self.system.kinds)
 
 
-def load_results(folder: str | Path) -> Results:
+def load_results(folder: str | Path, system: str | None = None) -> Results:
     """Return the results in a folder of ``formicarium run`` or ``formicarium campaign collect``.
 
+    Args:
+        folder: of the results.
+        system: name of the system, if it is not found by the one that the folder says ("module:object").
+
     Raises:
+        UserError: if the system is not found.
         StoreError: if there are none, or a file is damaged.
     """
     place = Path(folder)
     if not (place / "runs.parquet").exists():
         wanted = "formicarium campaign collect DESIGN" if (place / "parts").exists() else "formicarium run"
         raise StoreError(f"{place} has no runs.parquet: name a folder of results ({wanted} makes it)")
-    return Results(place, table.read(place / "runs.parquet"), find_system(_name(place)))
+    return Results(place, table.read(place / "runs.parquet"), find_system(system or _name(place)))
 
 
 def _name(folder: Path) -> str:
@@ -69,7 +72,7 @@ def _name(folder: Path) -> str:
     for file in ("configuration.json", "campaign.json"):
         if (folder / file).exists():
             return str(read_json(folder / file)["system"])
-    raise StoreError(f"{folder} does not say of which system it is: {json.dumps('configuration.json')} is missing")
+    raise StoreError(f"{folder} does not say of which system it is: configuration.json is missing")
 
 
 def _array(column: Any) -> np.ndarray:

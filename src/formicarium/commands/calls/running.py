@@ -34,7 +34,7 @@ def parameters(
     """Return all numbers of a system, SI units; ``formicarium describe SYSTEM`` lists them.
 
     Args:
-        system: a name of ``systems()``, or "module:object".
+        system: a name of ``system_names()``, or "module:object".
         setting: a published setting, by its number.
         robots: number of robots.
         changes: name -> value; the last part of a name is enough where it is unique ("spacing").
@@ -54,7 +54,7 @@ def run_trial(
     """Run one trial in this process and keep nothing on disk.
 
     Args:
-        system: a name of ``systems()``, or "module:object".
+        system: a name of ``system_names()``, or "module:object".
         seed: decides everything that is random.
         parameters: all its numbers; the defaults if None.
         frames_every: seconds between two frames; no frames if None.
@@ -85,7 +85,7 @@ def run_set(
     A program that uses several workers must do so under ``if __name__ == "__main__":``.
 
     Args:
-        system: a name of ``systems()``, or "module:object".
+        system: a name of ``system_names()``, or "module:object".
         seeds: of the runs.
         parameters: all its numbers; the defaults if None.
         out: folder of the results, as ``formicarium run --out``; a new one in formicarium-results if None.
@@ -116,7 +116,7 @@ def run_set(
     if report.failures:
         seed, reason = next(iter(report.failures.items()))
         raise RuntimeError(f"{len(report.failures)} of {len(wanted)} runs failed; seed {seed}:\n{reason}")
-    return Results.of_set(folder, wanted)
+    return Results.of_set(folder, found, wanted)
 
 
 def run_campaign(
