@@ -56,6 +56,45 @@ def cache_folder(function_file: str) -> Path:
     return Path(root) / f"numba-{numba.__version__}-{source_hash(own)}"
 
 
+class Compiled:
+    """A function in machine code, for compiled callers and for Python.
+
+    To be called from Python, machine code needs a wrapper that takes every record and array of a state apart. Numba
+    makes two for every function, and they were a third of a cold start. Nearly all functions are called by compiled
+    ones alone, so the wrapper is made, with a copy of the function, when Python calls (measured in docs/why.md).
+    """
+
+    def __init__(self, function: Callable[..., Any]):
+        """Prepare; nothing is compiled before the first call."""
+        functools.update_wrapper(self, function)
+        self.inner = _njit(function, "inner", no_cpython_wrapper=True)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the machine code from Python."""
+        return self._outer(*arguments)
+
+    @functools.cached_property
+    def _outer(self) -> Any:
+        return _njit(self.inner.py_func, "outer")
+
+    @property
+    def _numba_type_(self) -> Any:
+        """What compiled callers take this object for."""
+        return self.inner._numba_type_
+
+
+def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
+    options: dict[str, Any] = {"cache": True, "fastmath": False, "error_model": "numpy", "_nrt": False}
+    options |= {"no_cfunc_wrapper": True, **more}
+    config: Any = numba.config
+    previous = config.CACHE_DIR
+    config.CACHE_DIR = str(cache_folder(function.__code__.co_filename) / kind)
+    try:
+        return numba.njit(**options)(function)
+    finally:
+        config.CACHE_DIR = previous
+
+
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a function to machine code at its first call and keep the code on disk.
 
@@ -64,13 +103,4 @@ def compiled(function: Callable[..., Any]) -> Any:
     arrays handed to them and may not make new ones, which saves counting references to every array of a state
     at every call (measured in docs/why.md).
     """
-    if INTERPRETED:
-        return function
-    config: Any = numba.config
-    previous = config.CACHE_DIR
-    config.CACHE_DIR = str(cache_folder(function.__code__.co_filename))
-    try:
-        options: dict[str, Any] = {"cache": True, "fastmath": False, "error_model": "numpy", "_nrt": False}
-        return numba.njit(**options)(function)
-    finally:
-        config.CACHE_DIR = previous
+    return function if INTERPRETED else Compiled(function)
