@@ -6,6 +6,7 @@ import shutil
 import socket
 import struct
 import subprocess
+import sysconfig
 from pathlib import Path
 
 import numpy as np
@@ -185,9 +186,12 @@ def test_an_mcap_file_holds_poses_points_scene_numbers_and_events(folder, tmp_pa
 
 
 @pytest.mark.long
-def test_rerun_opens_the_mcap_file(folder, tmp_path):
-    assert exit_code(["export", recording(folder, 5), "--to", "mcap", "--out", str(tmp_path)]) == 0
-    rrd, rerun = tmp_path / "a.rrd", shutil.which("rerun")
+@pytest.mark.parametrize("system", ["mark-i3", "partitioning"])
+def test_rerun_opens_the_mcap_file(tmp_path, system):
+    run = ["run", system, "--seed", "5", "--record", "--set", "time_cap=120", "--out", str(tmp_path / "run")]
+    assert exit_code([*run, "--workers", "1"]) == 0
+    assert exit_code(["export", str(tmp_path / "run"), "--to", "mcap", "--out", str(tmp_path)]) == 0
+    rrd, rerun = tmp_path / "a.rrd", shutil.which("rerun", path=sysconfig.get_path("scripts"))
     assert rerun, 'this test needs Rerun: python -m pip install -e ".[rerun]"'
     subprocess.run([rerun, "mcap", "convert", str(tmp_path / "seed-5.mcap"), "-o", str(rrd)], check=True)
     printed = subprocess.run([rerun, "rrd", "print", "-vv", str(rrd)], check=True, capture_output=True, text=True)

@@ -154,6 +154,33 @@ def test_what_is_done_by_hand_happens_is_listed_recorded_and_replayed(opened, se
         assert "you kill" in page.inner_text("#events")
 
 
+def test_foraging_shows_floor_path_objects_and_a_blocked_booth(opened, serving, tmp_path):
+    with serving("watch", "partitioning", "--seed", "110001", "--paused", "--out", "rec", folder=tmp_path) as address:
+        page = opened(address)
+        sought(page, 2000)
+        page.wait_for_timeout(500)
+        system = resolve("partitioning")
+        session = Session(system, system.configure(), 110001)
+        session.seek(2000)
+        frame = session.frame()
+        assert page.evaluate("[...watching.now.frame.carried]") == frame.carried[0].tolist()
+        loaded = int(frame.carried.sum())
+        assert 0 < loaded < 10 and f"{loaded}\nwith object" in page.inner_text("#legend")
+        bright = """([x, y]) => {
+            const [px, py] = watching.arena.at(x, y).map(Math.round);
+            return arena.getContext("2d").getImageData(px, py, 1, 1).data[0];
+        }"""
+        page.click("[data-layer=trails]")
+        page.wait_for_timeout(200)
+        path, bottom, nest = (page.evaluate(bright, place) for place in ([0.8, 0.225], [0.8, 0.03], [1.25, 2.05]))
+        assert path > bottom + 20 > nest + 20  # shades 1.0, 0.5 and 0.14
+        page.click("#booths button >> nth=2")
+        page.click("#step")
+        until(page, f"{CYCLE} === 2001 && watching.now.status.interventions.length === 1")
+        assert page.evaluate("watching.now.frame.lit[2]") == 0
+        assert "you block booth green 3" in page.inner_text("#events")
+
+
 def test_the_keyboard_does_what_the_buttons_do(watched, opened):
     page = opened(watched)
     cycle = settled(page)

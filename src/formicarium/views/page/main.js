@@ -36,6 +36,7 @@ const told = {
       showBlocked();
     }
     document.querySelector("[data-layer=packets]").hidden = !content.radio;
+    document.querySelector("[data-layer=chain]").hidden = !content.styles.some((style) => style.chained);
     if (!content.touchable) {
       find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
     }
@@ -52,6 +53,7 @@ const told = {
     }
     if (!now.frame || frame.cycle !== now.frame.cycle || frame.jump) now.arrived = time;
     now.frame = frame;
+    if (frame.joined.some((other) => other >= 0)) document.querySelector("[data-layer=chain]").hidden = false;
     find("time").value = clock(frame.cycle * hello.scene.cycle_time, true);
     if (!scrubbing) find("scrub").value = frame.cycle;
     arena.stale = true;
