@@ -166,13 +166,14 @@ def test_foraging_shows_floor_path_objects_and_a_blocked_booth(opened, serving, 
         assert page.evaluate("[...watching.now.frame.carried]") == frame.carried[0].tolist()
         loaded = int(frame.carried.sum())
         assert 0 < loaded < 10 and f"{loaded}\nwith object" in page.inner_text("#legend")
-        bright = """([x, y]) => {
-            const [px, py] = watching.arena.at(x, y).map(Math.round);
-            return arena.getContext("2d").getImageData(px, py, 1, 1).data[0];
+        brightness = """(places) => {
+            const picture = arena.getContext("2d").getImageData(0, 0, arena.width, arena.height);
+            const [px, py] = [0, 1].map((k) => places.map((place) => Math.round(watching.arena.at(...place)[k])));
+            return px.map((x, k) => picture.data[4 * (py[k] * arena.width + x)]);
         }"""
         page.click("[data-layer=trails]")
         page.wait_for_timeout(200)
-        path, bottom, nest = (page.evaluate(bright, place) for place in ([0.8, 0.225], [0.8, 0.03], [1.25, 2.05]))
+        path, bottom, nest = page.evaluate(brightness, [[0.8, 0.225], [0.8, 0.03], [1.25, 2.05]])
         assert path > bottom + 20 > nest + 20  # shades 1.0, 0.5 and 0.14
         page.click("#booths button >> nth=2")
         page.click("#step")
@@ -212,7 +213,7 @@ def test_one_can_go_nearer_and_still_click_the_right_robot(watched, opened):
     until(page, f"watching.arena.scale > {2 * before}")
     time.sleep(0.2)
     nearer = page.evaluate("watching.arena.place(11)")
-    assert np.hypot(nearer[0] - x, nearer[1] - y) < 3
+    assert np.hypot(nearer[0] - x, nearer[1] - y) < 5  # a wheel event has whole pixels, magnified
     page.mouse.click(*nearer)
     until(page, "watching.now.inspection")
     assert page.evaluate("watching.now.selected === watching.hello.identity[11]")
