@@ -381,18 +381,19 @@ export class Arena {
 
   drawPackets(context, packets, x, y, seconds) {
     const pairs = [];
-    context.fillStyle = this.accent;
-    context.beginPath();
     for (let k = 0; k < packets.length; k += 2) {
       const [to, from] = [packets[k], packets[k + 1]];
       if (this.selected >= 0 && to !== this.selected && from !== this.selected) continue;
-      pairs.push([x[from], y[from], x[to], y[to]]);
-      const t = (seconds * 1.6 + (to * 0.37 + from * 0.61)) % 1;
-      const [px, py] = this.at(x[from] + t * (x[to] - x[from]), y[from] + t * (y[to] - y[from]));
+      pairs.push([x[from], y[from], x[to], y[to], to * 0.37 + from * 0.61]);
+    }
+    this.lines(context, pairs, this.accent, this.ratio, 0.28);
+    context.fillStyle = this.accent;
+    context.beginPath();
+    for (const [ax, ay, bx, by, start] of pairs) {
+      const t = (seconds * 1.6 + start) % 1, [px, py] = this.at(ax + t * (bx - ax), ay + t * (by - ay));
       context.moveTo(px + 2.6 * this.ratio, py);
       context.arc(px, py, 2.6 * this.ratio, 0, 2 * Math.PI);
     }
-    this.lines(context, pairs, this.accent, this.ratio, 0.28);
     context.fill();
   }
 
