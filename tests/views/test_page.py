@@ -94,23 +94,6 @@ def test_a_click_opens_the_right_robot_with_its_messages_decoded(watched, opened
         assert "link_number" in text and "inhibition_heard" in text and "predecessor" in text
 
 
-def test_messages_are_seen_to_fly(watched, opened):
-    page = opened(watched)
-    settled(page)
-    sought(page, 900)
-    page.click("[data-layer=trails]")
-    page.click("[data-layer=packets]")
-    until(page, "watching.now.frame.packets.length > 20")
-    pictures = set()
-    for _ in range(4):
-        time.sleep(0.23)
-        pictures.add(page.locator("#arena").screenshot())
-    assert len(pictures) == 4  # while the trial stands still
-    page.click("[data-layer=packets]")
-    time.sleep(0.3)
-    assert page.locator("#arena").screenshot() == page.locator("#arena").screenshot()
-
-
 def test_scrubbing_back_shows_the_state_that_was(watched, opened):
     page = opened(watched)
     ask(page, do="speed", times=0)
