@@ -15,7 +15,9 @@ from formicarium.trial.record import EVENT, Polygon, Scene, Timeline, Trial
 from formicarium.trial.simulate import drain
 from formicarium.trial.watching import Impossible, Inspection, Section, Watching
 
-FLY = np.dtype([(name, "i8") for name in ("identity", "alive", "phase")] + [(name, "f8") for name in ("x", "y", "turn")])
+FLY = np.dtype(
+    [(name, "i8") for name in ("identity", "alive", "phase")] + [(name, "f8") for name in ("x", "y", "turn")]
+)
 HEDGE = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
 
 

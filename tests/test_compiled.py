@@ -141,7 +141,7 @@ def test_no_edit_of_any_file_of_a_reader_is_masked(tmp_path):
 
 
 def test_compiled_arithmetic_is_strict():
-    options = getattr(wrapped, "targetoptions", None)
+    options = getattr(getattr(wrapped, "inner", None), "targetoptions", None)
     if options is None:
         pytest.skip("running interpreted")
     assert not options["fastmath"] and options["error_model"] == "numpy"

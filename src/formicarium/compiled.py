@@ -110,8 +110,8 @@ class SharedCache:
     there cannot use any of them.
     """
 
-    def __init__(self, function: Callable[..., Any]):
-        self.function = function
+    def __init__(self, function: Callable[..., Any], kind: str):
+        self.function, self.kind = function, kind
         self._parts: dict[frozenset[str], Any] = {}
         self._part(frozenset())
 
@@ -119,7 +119,7 @@ class SharedCache:
         if modules not in self._parts:
             own = (self.function.__code__.co_filename, self.function.__globals__.get("__package__"))
             others = [(str(sys.modules[name].__file__), sys.modules[name].__package__) for name in sorted(modules)]
-            with kept_in(cache_folder(own, *others)):
+            with kept_in(cache_folder(own, *others) / self.kind):
                 self._parts[modules] = FunctionCache(self.function)
         return self._parts[modules]
 
@@ -142,6 +142,41 @@ class SharedCache:
         return self._parts[frozenset()].cache_path
 
 
+class Compiled:
+    """A function in machine code, for compiled callers and for Python.
+
+    To be called from Python, machine code needs a wrapper that takes every record and array of a state apart. Numba
+    makes two for every function, and they were a third of a cold start. Nearly all functions are called by compiled
+    ones alone, so the wrapper is made, with a copy of the function, when Python calls (measured in docs/why.md).
+    """
+
+    def __init__(self, function: Callable[..., Any]):
+        """Prepare; nothing is compiled before the first call."""
+        functools.update_wrapper(self, function)
+        self.inner = _njit(function, "inner", no_cpython_wrapper=True)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the machine code from Python."""
+        return self._outer(*arguments)
+
+    @functools.cached_property
+    def _outer(self) -> Any:
+        return _njit(self.inner.py_func, "outer")
+
+    @property
+    def _numba_type_(self) -> Any:
+        """What compiled callers take this object for."""
+        return self.inner._numba_type_
+
+
+def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
+    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
+    dispatcher = numba.njit(**options, **more)(function)
+    if Path(function.__code__.co_filename).is_file():
+        dispatcher._cache = SharedCache(function, kind)
+    return dispatcher
+
+
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a function to machine code at its first call and keep the code on disk.
 
@@ -150,10 +185,4 @@ def compiled(function: Callable[..., Any]) -> Any:
     arrays handed to them and may not make new ones, which saves counting references to every array of a state
     at every call (measured in docs/why.md). Code that is typed into a session has no file and is not kept.
     """
-    if INTERPRETED:
-        return function
-    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
-    dispatcher = numba.njit(**options)(function)
-    if Path(function.__code__.co_filename).is_file():
-        dispatcher._cache = SharedCache(function)
-    return dispatcher
+    return function if INTERPRETED else Compiled(function)

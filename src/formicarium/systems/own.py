@@ -198,7 +198,7 @@ def taken_apart(swarm: Swarm) -> Onboard | None:
         note(state)
         state.clock[0].cycle += 1
 
-    plain = getattr(decide, "py_func", decide)
+    plain = getattr(decide, "__wrapped__", decide)
     return Onboard(f"{plain.__module__}:{plain.__name__}", given, sense, after)
 
 

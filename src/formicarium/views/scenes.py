@@ -24,4 +24,6 @@ def scene_from(content: Mapping[str, Any]) -> Scene:
     """Return the scene that was written; scenes of older files have no ranges and no load."""
     polygons = tuple(Polygon(np.array(points, float), colour) for points, colour in content["polygons"])
     ranges = tuple((str(name), float(reach)) for name, reach in content.get("ranges", []))
-    return Scene(polygons, content["radius"], tuple(content["roles"]), content["cycle_time"], ranges, content.get("load", ""))
+    return Scene(
+        polygons, content["radius"], tuple(content["roles"]), content["cycle_time"], ranges, content.get("load", "")
+    )

@@ -47,6 +47,9 @@ def watch(process: int, patience: float, command: list[str]) -> None:
         elif processor_time(process) - heard > patience:
             explain(command, cycle, f"hangs: no control cycle has ended for {patience:g} s of computing")
             os.kill(process, signal.SIGTERM)
+            time.sleep(5.0)  # who has taken over the signal cannot hear it either
+            if not select.select([0], [], [], 0.0)[0]:  # its end of the pipe is still open
+                os.kill(process, signal.SIGKILL)
             return None
 
 

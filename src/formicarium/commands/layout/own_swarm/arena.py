@@ -1,6 +1,7 @@
 """What stands still. `--set plan=FILE.toml` reads it from a file instead."""
 
 from formicarium.trial.swarm.arena import Arena
+
 from own_swarm.parameters import Parameters
 
 

@@ -3,7 +3,6 @@
 from enum import IntEnum
 
 import numpy as np
-
 from formicarium.compiled import compiled
 from formicarium.control.moves import drive, stop
 from formicarium.control.speech import be_quiet, broadcast

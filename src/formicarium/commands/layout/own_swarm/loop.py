@@ -2,6 +2,7 @@
 
 from formicarium.compiled import compiled
 from formicarium.trial.swarm.phases import act, move, sense, serve
+
 from own_swarm.behaviour import decide
 from own_swarm.measures import note
 

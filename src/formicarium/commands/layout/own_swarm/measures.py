@@ -3,10 +3,10 @@
 from enum import IntEnum
 
 import numpy as np
-
 from formicarium.compiled import compiled
 from formicarium.trial.events import write_event
 from formicarium.trial.swarm.phases import note_roles
+
 from own_swarm.behaviour import Role
 
 

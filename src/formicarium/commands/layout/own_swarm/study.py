@@ -1,6 +1,7 @@
 """The swarm as a system that can be run, watched, replayed, swept and tested."""
 
 from formicarium.systems.own import Swarm, assemble
+
 from own_swarm.arena import make_arena
 from own_swarm.behaviour import MEMORY, Role, decide
 from own_swarm.loop import run

@@ -1,7 +1,6 @@
 """The contracts that every system keeps, and what this swarm is for."""
 
 import pytest
-
 from formicarium.contracts import CONTRACTS
 from formicarium.systems.registry import resolve
 
