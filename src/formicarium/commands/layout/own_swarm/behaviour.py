@@ -69,12 +69,12 @@ def near(reading, distance):
 @compiled
 def walk(reading, memory, command, table, epuck, cycle_time):
     """Drive straight on, and turn for a random while where something is ahead."""
-    if reading.proximity[0] + reading.proximity[1] + reading.proximity[6] + reading.proximity[7] > 0.5:
-        if reading.cycle >= memory.turn_until:
-            memory.draws = advanced(memory.draws)
-            memory.turn_until = reading.cycle + int((0.5 + uniform(memory.draws)) / cycle_time)
-            left = reading.proximity[6] + reading.proximity[7]
-            memory.turn_side = -1.0 if left > reading.proximity[0] + reading.proximity[1] else 1.0
+    right = reading.proximity[0] + reading.proximity[1]
+    left = reading.proximity[6] + reading.proximity[7]
+    if left + right > 0.5 and reading.cycle >= memory.turn_until:
+        memory.draws = advanced(memory.draws)
+        memory.turn_until = reading.cycle + int((0.5 + uniform(memory.draws)) / cycle_time)
+        memory.turn_side = -1.0 if left > right else 1.0
     if reading.cycle < memory.turn_until:
         drive(command, 0.0, memory.turn_side * table.turn_rate, epuck.wheel_distance)
     else:
