@@ -26,9 +26,7 @@ def test_every_name_is_there_has_words_and_types():
 
 
 def test_importing_it_imports_nothing_heavy():
-    program = (
-        "import sys, formicarium; print({'numba', 'numpy', 'pydantic', 'pyarrow'} & set(sys.modules))"
-    )
+    program = "import sys, formicarium; print({'numba', 'numpy', 'pydantic', 'pyarrow'} & set(sys.modules))"
     done = subprocess.run(
         [sys.executable, "-X", "importtime", "-c", program], capture_output=True, text=True, check=True
     )

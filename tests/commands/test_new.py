@@ -28,7 +28,7 @@ def test_the_name_stands_everywhere_and_every_file_is_clean(here, capsys):
     assert exit_code(["new", "my-swarm"]) == 0
     assert "cd my-swarm" in capsys.readouterr().out
     files = [file for file in (here / "my-swarm").rglob("*") if file.is_file()]
-    assert len(files) == sum(file.is_file() and "__pycache__" not in file.parts for file in LAYOUT.rglob("*"))
+    assert len(files) == sum(file.suffix in {".py", ".toml", ".md"} for file in LAYOUT.rglob("*"))
     assert not [file for file in files if "own_swarm" in str(file) or "own-swarm" in file.read_text()]
     subprocess.run([sys.executable, "-m", "ruff", "check", "--select", "E,F,W,B", "my-swarm"], check=True)
 

@@ -11,6 +11,7 @@ from formicarium.commands.errors import UserError
 from formicarium.systems.registry import names
 
 LAYOUT = Path(__file__).parent / "layout"
+KINDS = {".py", ".toml", ".md"}
 NAME, MODULE = "own-swarm", "own_swarm"  # as they stand in the layout
 
 
@@ -35,7 +36,7 @@ def lay_out(name: str) -> tuple[Path, str]:
         with tempfile.TemporaryDirectory(prefix=f".{name}-", dir=".") as temporary:
             made = Path(temporary) / name
             for file in sorted(LAYOUT.rglob("*")):
-                if file.is_file() and "__pycache__" not in file.parts:
+                if file.suffix in KINDS:  # nothing that a tool or an editor has left there
                     place = made / str(file.relative_to(LAYOUT)).replace(MODULE, module)
                     place.parent.mkdir(parents=True, exist_ok=True)
                     text = file.read_text(encoding="utf-8")
