@@ -2,7 +2,7 @@
 
     python benchmarks/own_system.py
 
-Equal work: 20 robots that sense, talk by radio and push, 2,000 cycles; the built-in system is Mark I3. The laid-out one
+Equal work: 20 robots that sense, talk by radio and push, 1,000 cycles; the built-in system is Mark I3. The laid-out one
 senses light and ground as well, and decides less. Medians of ratios taken in turn in one process, with extremes.
 """
 
@@ -16,7 +16,7 @@ import time
 from formicarium.commands.laying_out import lay_out
 from formicarium.systems.registry import resolve
 
-CYCLES, ROUNDS = 2000, 9
+CYCLES, ROUNDS = 1000, 9
 
 
 def seconds(system, state, cycles):
