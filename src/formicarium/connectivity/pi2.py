@@ -1,0 +1,44 @@
+"""PI2: power iteration on B = I - eps L - 1 1' / K (Di Lorenzo and Barbarossa; ST-8).
+
+A cycle: (0) consensus on the mean of f; (1) one iteration f <- B f; (2) consensus on the norm, then f <- f / ||f||.
+"""
+
+from formicarium.compiled import compiled
+from formicarium.connectivity.consensus import agree, begin_norm, gather, normalise
+from formicarium.connectivity.records import Clock, Source
+
+MEAN, STEP, NORM = 0, 1, 2  # phases
+
+
+@compiled
+def begin(node):
+    """Begin a cycle."""
+    node.average = node.value
+    node.phase, node.count = MEAN, 0
+
+
+@compiled
+def listen(node, inbox, heard, rules):
+    """Do one iteration of one node; arguments as in PI1."""
+    degree, values, averages = gather(inbox, heard)
+    node.estimate = degree - values / node.value  # ST-9
+    if node.phase == STEP:
+        mean = node.mean if rules.mean == Source.CONSENSUS else node.told_sum / rules.nodes
+        node.value -= rules.epsilon * (degree * node.value - values) + mean
+        node.phase = NORM
+        begin_norm(node, rules)
+    else:
+        agree(node, degree, averages, rules)
+        if rules.clock == Clock.ROUNDS and node.count == rules.rounds:
+            end_consensus(node, rules)
+
+
+@compiled
+def end_consensus(node, rules):
+    """End step 0 or 2."""
+    if node.phase == MEAN:
+        node.mean = node.average
+        node.phase = STEP
+    else:
+        normalise(node, rules)
+        begin(node)
