@@ -30,9 +30,31 @@ def agree(node, degree, averages, rules):
 
 @compiled
 def begin_norm(node, rules):
-    """Begin the consensus that ends in a norm: on f^2, or, as a mere clock, on f."""
-    node.average = node.value * node.value if rules.norm == Source.CONSENSUS else node.value
+    """Begin the consensus that ends in a norm: on f^2, on the largest |f|, or, as a mere clock, on f."""
+    node.average = node.value
+    if rules.norm == Source.CONSENSUS:
+        node.average = node.value * node.value
+    elif rules.norm == Source.MAXIMUM:
+        node.average = abs(node.value)
     node.count = 0
+
+
+@compiled
+def agree_on_norm(node, inbox, heard, degree, averages, rules):
+    """Do one iteration of that consensus."""
+    if rules.norm == Source.MAXIMUM:
+        for sender in range(len(heard)):
+            if heard[sender]:
+                node.average = max(node.average, inbox[sender].average)
+        node.count += 1
+    else:
+        agree(node, degree, averages, rules)
+
+
+@compiled
+def norm_rounds(rules):
+    """Return the rounds after which a node takes its norm for agreed upon."""
+    return rules.flood if rules.norm == Source.MAXIMUM else rules.rounds
 
 
 @compiled
@@ -40,6 +62,8 @@ def normalise(node, rules):
     """Divide a node's entry by the norm: f <- f / ||f||, ||f||^2 = K times the average of f^2."""
     if rules.norm == Source.CONSENSUS:
         norm = (rules.nodes * node.average) ** 0.5
+    elif rules.norm == Source.MAXIMUM:
+        norm = node.average
     else:
         norm = node.told_norm
     node.value /= norm

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from formicarium.connectivity.parameters import EstimatorTable, LinksTable
-from formicarium.connectivity.records import MESSAGE, NODE, Drops
+from formicarium.connectivity.records import MESSAGE, NODE
 from formicarium.connectivity.rounds import iterate
 from formicarium.connectivity.spectrum import read_out
 from formicarium.streams import generator, stream
@@ -42,7 +42,7 @@ def estimate(
         every: iterations between two that are noted, from the first.
         stay: iterations for which each of M networks lasts.
     """
-    found = np.ascontiguousarray(np.atleast_3d(networks) if networks.ndim == 3 else networks[None], bool)
+    found = np.ascontiguousarray(networks if np.ndim(networks) == 3 else np.asarray(networks)[None], bool)
     history, start = _run(found, estimator, links, seed, iterations, stay or iterations)
     noted = np.arange(0, iterations, every)
     if estimator.method != "Wave":
@@ -84,6 +84,3 @@ def begin(size: int, estimator: EstimatorTable, seed: int) -> np.ndarray:
         nodes["value"] = index / np.sqrt((index * index).sum()) if size > 1 else 0.0
     nodes["previous"] = nodes["average"] = nodes["value"]
     return nodes
-
-
-__all__ = ["RELIABLE", "Drops", "Estimates", "begin", "eigenvalue", "estimate"]

@@ -26,24 +26,24 @@ class EstimatorTable(Table):
     clock: Literal["rounds", "global"] = number(
         "rounds", "", "what ends a consensus. rounds: a fixed number; global: max - min over all nodes [scripts, ST-6]"
     )
-    norm: Literal["consensus", "global"] = number("consensus", "", f"whence nodes have ||f||. {GLOBAL} [scripts]")
+    norm: Literal["consensus", "maximum", "global"] = number(
+        "consensus", "", f"whence nodes have ||f||. {GLOBAL} [scripts]; maximum: the largest |f|, flooded [choice]"
+    )
     mean: Literal["consensus", "global"] = number("consensus", "", f"whence nodes of PI2 have it. {GLOBAL} [scripts]")
     start: Literal["random", "index"] = number(
         "random", "", "of f. random: each node draws from -1..1; index: k/K, divided by its norm [scripts, ST-5]"
     )
     rows: Literal["own", "mirrored"] = number(
-        "own",
-        "",
-        "of Wave. mirrored: of each pair the first node's losses count for both, degrees do not [scripts, ST-13]",
+        "own", "", "of Wave. mirrored: a pair's first node's losses count for both, but not in d [scripts, ST-13]"
     )
+    law: Literal["corrected", "printed"] = number("corrected", "", "of Wave; as printed it grows without bound [ST-10]")
     readout: Literal["bin", "interpolated"] = number(
         "interpolated",
         "",
         "of Wave. bin: the second peak's place in the spectrum [scripts]; interpolated: between bins",
     )
-    rounds_per_node: float = number(
-        10.0, "1", "rounds of one consensus over K: as long as the cycles of the scripts at K = 10 [choice]", gt=0
-    )
+    rounds_per_node: float = number(20.0, "1", "rounds of one average consensus over K [tuned on other graphs]", gt=0)
+    flood_per_node: float = number(1.0, "1", "rounds of one flood of a maximum over K: as far as a path [choice]", gt=0)
     tolerance: float = number(
         0.01, "1", "of the global clock; absolute, f is not normalised then [scripts, ST-6]", gt=0
     )
@@ -62,7 +62,7 @@ class EstimatorTable(Table):
         return "global" in (self.clock, self.norm, *((self.mean,) if self.method == "PI2" else ()))
 
     def rounds(self, nodes: int) -> int:
-        """Return the rounds of a consensus among so many nodes."""
+        """Return the rounds of an average consensus among so many nodes."""
         return max(1, round(self.rounds_per_node * nodes))
 
     def record(self, nodes: int = 1) -> Any:
@@ -74,7 +74,9 @@ class EstimatorTable(Table):
         rules.norm = Source[self.norm.upper()]
         rules.mean = Source[self.mean.upper()]
         rules.rows = Rows[self.rows.upper()] if self.method == "Wave" else Rows.OWN
+        rules.printed = self.law == "printed"
         rules.rounds = self.rounds(nodes)
+        rules.flood = max(1, round(self.flood_per_node * nodes))
         rules.tolerance = self.tolerance
         rules.mixing = self.mixing / max(1, nodes - 1)
         rules.diffusions = self.diffusions
@@ -91,8 +93,8 @@ class LinksTable(Table):
     drops: Literal["directed", "symmetric", "hold-last"] = number(
         "directed",
         "",
-        "directed: each way by itself [scripts]; symmetric: both ways together; hold-last: directed, and the last packet "
-        "that came counts [choice, ST-13]",
+        "directed: each way by itself [scripts]; symmetric: both ways together; hold-last: directed, and the last "
+        "packet that came goes on counting [choice, ST-13]",
     )
 
     @property

@@ -5,7 +5,7 @@ Fiedler vector outlives the others; (C) consensus on the norm, f frozen, then f 
 """
 
 from formicarium.compiled import compiled
-from formicarium.connectivity.consensus import agree, begin_norm, gather, normalise
+from formicarium.connectivity.consensus import agree_on_norm, begin_norm, gather, norm_rounds, normalise
 from formicarium.connectivity.records import Clock
 
 APPLY, DIFFUSE, NORM = 0, 1, 2  # phases
@@ -34,8 +34,8 @@ def listen(node, inbox, heard, rules):
             node.phase = NORM
             begin_norm(node, rules)
     else:
-        agree(node, degree, averages, rules)
-        if rules.clock == Clock.ROUNDS and node.count == rules.rounds:
+        agree_on_norm(node, inbox, heard, degree, averages, rules)
+        if rules.clock == Clock.ROUNDS and node.count == norm_rounds(rules):
             end_consensus(node, rules)
 
 

@@ -4,7 +4,7 @@ A cycle: (0) consensus on the mean of f; (1) one iteration f <- B f; (2) consens
 """
 
 from formicarium.compiled import compiled
-from formicarium.connectivity.consensus import agree, begin_norm, gather, normalise
+from formicarium.connectivity.consensus import agree, agree_on_norm, begin_norm, gather, norm_rounds, normalise
 from formicarium.connectivity.records import Clock, Source
 
 MEAN, STEP, NORM = 0, 1, 2  # phases
@@ -27,9 +27,13 @@ def listen(node, inbox, heard, rules):
         node.value -= rules.epsilon * (degree * node.value - values) + mean
         node.phase = NORM
         begin_norm(node, rules)
-    else:
+    elif node.phase == MEAN:
         agree(node, degree, averages, rules)
         if rules.clock == Clock.ROUNDS and node.count == rules.rounds:
+            end_consensus(node, rules)
+    else:
+        agree_on_norm(node, inbox, heard, degree, averages, rules)
+        if rules.clock == Clock.ROUNDS and node.count == norm_rounds(rules):
             end_consensus(node, rules)
 
 

@@ -29,7 +29,9 @@ RULES = np.dtype(
         ("norm", "i8"),  # Source of the norm
         ("mean", "i8"),  # Source of the mean (PI2)
         ("rows", "i8"),  # Rows (Wave)
-        ("rounds", "i8"),  # of a consensus
+        ("printed", "i8"),  # whether Wave's formula is as printed
+        ("rounds", "i8"),  # of a consensus on an average
+        ("flood", "i8"),  # of a consensus on a maximum
         ("tolerance", "f8"),  # of the global clock
         ("mixing", "f8"),  # gamma of consensus
         ("diffusions", "i8"),  # iterations of step B of PI1
@@ -59,8 +61,9 @@ class Clock(IntEnum):
 class Source(IntEnum):
     """Where a node has the norm or the mean of f from."""
 
-    CONSENSUS = 0
+    CONSENSUS = 0  # on an average
     GLOBAL = 1  # computed from the memories of all nodes
+    MAXIMUM = 2  # consensus on a maximum: the norm of f is its largest entry
 
 
 class Rows(IntEnum):

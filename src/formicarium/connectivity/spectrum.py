@@ -14,7 +14,7 @@ def read_out(signals: np.ndarray, ends: np.ndarray, window: int, interpolated: b
         signals: (N, K) samples of K nodes.
         ends: (S,) how many samples there are at each read-out, ascending; the last ``window`` of them count.
         window: samples.
-        interpolated: look for the peak between bins.
+        interpolated: taper the samples and look for the peak between bins.
 
     Returns:
         (S, K).
@@ -40,11 +40,11 @@ def frequency(samples: np.ndarray, interpolated: bool) -> np.ndarray:
         interpolated: as in ``read_out``.
     """
     n = samples.shape[-1]
-    spectrum = np.fft.rfft(samples)[..., : n // 2]
-    bins = second_peak(np.abs(spectrum)).astype(float)
-    if interpolated:
-        bins = np.where(bins > 0, bins + _offset(spectrum, bins.astype(int)), bins)
-    return 2.0 * np.pi * bins / n
+    taper = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(n) / n) if interpolated else 1.0
+    magnitudes = np.abs(np.fft.rfft(samples * taper)[..., : n // 2])
+    place = second_peak(magnitudes)
+    offset = np.where(place > 0, _offset(magnitudes, place), 0.0) if interpolated else 0.0
+    return 2.0 * np.pi * (place + offset) / n
 
 
 def second_peak(magnitudes: np.ndarray) -> np.ndarray:
@@ -59,12 +59,14 @@ def second_peak(magnitudes: np.ndarray) -> np.ndarray:
     return second.argmax(axis=-1)
 
 
-def _offset(spectrum: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Return how far the true peak is from its bin, -0.5..0.5 (Jacobsen and Kootsookos, IEEE Signal Processing 2007)."""
-    last = spectrum.shape[-1] - 1
+def _offset(magnitudes: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Return how far a peak is from its bin, -0.5..0.5, after a Hann taper (Grandke, IEEE Trans. IM 32, 1983).
+
+    With a the ratio of the larger neighbour to the peak: (2 a - 1) / (a + 1) towards that neighbour.
+    """
+    last = magnitudes.shape[-1] - 1
     before, here, after = (
-        np.take_along_axis(spectrum, np.clip(place + k, 0, last)[..., None], axis=-1)[..., 0] for k in (-1, 0, 1)
+        np.take_along_axis(magnitudes, np.clip(place + k, 0, last)[..., None], axis=-1)[..., 0] for k in (-1, 0, 1)
     )
-    with np.errstate(all="ignore"):
-        offset = ((before - after) / (2.0 * here - before - after)).real
-    return np.clip(np.nan_to_num(offset), -0.5, 0.5)
+    ratio = np.maximum(before, after) / np.where(here > 0.0, here, 1.0)
+    return np.clip(np.sign(after - before) * (2.0 * ratio - 1.0) / (ratio + 1.0), -0.5, 0.5)
