@@ -1,5 +1,7 @@
 """Average consensus and the sums that a node takes over what it hears (ST-6)."""
 
+import math
+
 from formicarium.compiled import compiled
 from formicarium.connectivity.records import Source
 
@@ -61,7 +63,7 @@ def norm_rounds(rules):
 def normalise(node, rules):
     """Divide a node's entry by the norm: f <- f / ||f||, ||f||^2 = K times the average of f^2."""
     if rules.norm == Source.CONSENSUS:
-        norm = (rules.nodes * node.average) ** 0.5
+        norm = math.sqrt(rules.nodes * node.average)
     elif rules.norm == Source.MAXIMUM:
         norm = node.average
     else:

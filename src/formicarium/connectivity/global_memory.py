@@ -1,5 +1,7 @@
 """What the published scripts read from the memories of all nodes (author mode). No robot can do any of this."""
 
+import math
+
 from formicarium.compiled import compiled
 from formicarium.connectivity import pi1, pi2
 from formicarium.connectivity.records import Method
@@ -14,7 +16,7 @@ def tell(nodes):
         square += nodes[k].value * nodes[k].value
     for k in range(len(nodes)):
         nodes[k].told_sum = total
-        nodes[k].told_norm = square**0.5
+        nodes[k].told_norm = math.sqrt(square)
 
 
 @compiled

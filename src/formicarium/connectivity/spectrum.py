@@ -24,6 +24,8 @@ def read_out(signals: np.ndarray, ends: np.ndarray, window: int, interpolated: b
     for k in short:
         found[k] = frequency(signals[: ends[k]].T, interpolated)
     full = np.flatnonzero(ends >= window)
+    if not len(full):
+        return found
     windows = np.lib.stride_tricks.sliding_window_view(signals, window, axis=0)
     step = max(1, MOST_AT_ONCE // (window * signals.shape[1]))
     for first in range(0, len(full), step):
