@@ -34,9 +34,9 @@ def agree(node, degree, averages, rules):
 def begin_norm(node, rules):
     """Begin the consensus that ends in a norm: on f^2, on the largest |f|, or, as a mere clock, on f."""
     node.average = node.value
-    if rules.norm == Source.CONSENSUS:
+    if rules.norm_source == Source.CONSENSUS:
         node.average = node.value * node.value
-    elif rules.norm == Source.MAXIMUM:
+    elif rules.norm_source == Source.MAXIMUM:
         node.average = abs(node.value)
     node.count = 0
 
@@ -44,7 +44,7 @@ def begin_norm(node, rules):
 @compiled
 def agree_on_norm(node, inbox, heard, degree, averages, rules):
     """Do one iteration of that consensus."""
-    if rules.norm == Source.MAXIMUM:
+    if rules.norm_source == Source.MAXIMUM:
         for sender in range(len(heard)):
             if heard[sender]:
                 node.average = max(node.average, inbox[sender].average)
@@ -56,15 +56,15 @@ def agree_on_norm(node, inbox, heard, degree, averages, rules):
 @compiled
 def norm_rounds(rules):
     """Return the rounds after which a node takes its norm for agreed upon."""
-    return rules.flood if rules.norm == Source.MAXIMUM else rules.rounds
+    return rules.flood if rules.norm_source == Source.MAXIMUM else rules.rounds
 
 
 @compiled
 def normalise(node, rules):
     """Divide a node's entry by the norm: f <- f / ||f||, ||f||^2 = K times the average of f^2."""
-    if rules.norm == Source.CONSENSUS:
+    if rules.norm_source == Source.CONSENSUS:
         norm = math.sqrt(rules.nodes * node.average)
-    elif rules.norm == Source.MAXIMUM:
+    elif rules.norm_source == Source.MAXIMUM:
         norm = node.average
     else:
         norm = node.told_norm

@@ -71,8 +71,8 @@ class EstimatorTable(Table):
         rules.method = Method[self.method.upper()]
         rules.nodes = nodes
         rules.clock = Clock[self.clock.upper()]
-        rules.norm = Source[self.norm.upper()]
-        rules.mean = Source[self.mean.upper()]
+        rules.norm_source = Source[self.norm.upper()]
+        rules.mean_source = Source[self.mean.upper()]
         rules.rows = Rows[self.rows.upper()] if self.method == "Wave" else Rows.OWN
         rules.printed = self.law == "printed"
         rules.rounds = self.rounds(nodes)

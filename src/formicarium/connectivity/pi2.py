@@ -23,7 +23,7 @@ def listen(node, inbox, heard, rules):
     degree, values, averages = gather(inbox, heard)
     node.estimate = degree - values / node.value  # ST-9
     if node.phase == STEP:
-        mean = node.mean if rules.mean == Source.CONSENSUS else node.told_sum / rules.nodes
+        mean = node.found_mean if rules.mean_source == Source.CONSENSUS else node.told_sum / rules.nodes
         node.value -= rules.epsilon * (degree * node.value - values) + mean
         node.phase = NORM
         begin_norm(node, rules)
@@ -41,7 +41,7 @@ def listen(node, inbox, heard, rules):
 def end_consensus(node, rules):
     """End step 0 or 2."""
     if node.phase == MEAN:
-        node.mean = node.average
+        node.found_mean = node.average
         node.phase = STEP
     else:
         normalise(node, rules)

@@ -9,7 +9,7 @@ NODE = np.dtype(
         ("value", "f8"),  # entry of the vector f (PI1, PI2), or the signal s (Wave)
         ("previous", "f8"),  # signal one iteration earlier (Wave)
         ("average", "f8"),  # what consensus works on
-        ("mean", "f8"),  # of f over all nodes, as consensus found it (PI2)
+        ("found_mean", "f8"),  # of f over all nodes, as consensus found it (PI2)
         ("estimate", "f8"),  # of lambda2 (PI1, PI2), or the signal, to be read out (Wave)
         ("phase", "i8"),  # of the method's cycle
         ("count", "i8"),  # iterations in this phase
@@ -26,8 +26,8 @@ RULES = np.dtype(
         ("method", "i8"),  # Method
         ("nodes", "i8"),  # K, which all nodes know
         ("clock", "i8"),  # Clock: what ends a consensus
-        ("norm", "i8"),  # Source of the norm
-        ("mean", "i8"),  # Source of the mean (PI2)
+        ("norm_source", "i8"),  # Source of the norm
+        ("mean_source", "i8"),  # Source of the mean (PI2)
         ("rows", "i8"),  # Rows (Wave)
         ("printed", "i8"),  # whether Wave's formula is as printed
         ("rounds", "i8"),  # of a consensus on an average

@@ -25,7 +25,7 @@ def iterate(networks, stay, nodes, messages, inbox, heard, mirrored, rules, drop
         stream: state of the random stream of packets.
         history: (T, K) written: every node's estimate, or Wave's signal.
     """
-    told = rules.norm == Source.GLOBAL or rules.mean == Source.GLOBAL
+    told = rules.norm_source == Source.GLOBAL or rules.mean_source == Source.GLOBAL
     for t in range(len(history)):
         # speak
         for k in range(len(nodes)):
