@@ -16,6 +16,7 @@ from formicarium import __version__
 from formicarium.campaigns.errors import CrewError, DesignError, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
+from formicarium.commands.connectivity import connectivity
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
 from formicarium.commands.errors import UserError
@@ -38,6 +39,7 @@ Start here:
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
+    formicarium connectivity FILE           how connected a graph is, and what its nodes can find out
 """
 
 app = App(
@@ -58,6 +60,7 @@ app.command(systems)
 app.command(describe)
 app.command(campaign)
 app.command(study)
+app.command(connectivity)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
