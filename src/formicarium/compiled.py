@@ -25,7 +25,7 @@ PACKAGE = Path(__file__).parent
 
 # The rooms whose code decides results. Views, commands, campaigns and statistics only look at results.
 DECIDING = (
-    *("compiled.py", "streams.py", "tables.py", "angles.py", "connectivity"),
+    *("compiled.py", "streams.py", "tables.py", "angles.py", "connectivity", "studies/estimators.py"),
     *("physics", "robots", "devices", "control", "observers", "trial", "systems"),
 )
 

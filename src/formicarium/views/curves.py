@@ -18,7 +18,7 @@ def draw_curves(sheet: CurveSheet, path: Path) -> Path:
         StoreError: if the file cannot be written.
     """
     rows, columns = len(sheet.panels), max(len(row) for row in sheet.panels)
-    width, height = 0.9 + 4.3 * columns, 1.2 + 3.1 * rows
+    width, height = 0.9 + max(6.3, 4.3 * columns), 1.2 + max(3.7, 3.1 * rows)
     figure = new_figure(width, height)
     grid = figure.subplots(rows, columns, squeeze=False)
     for axes_row, panels in zip(grid, sheet.panels, strict=True):
