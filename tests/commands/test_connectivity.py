@@ -78,12 +78,13 @@ def test_a_recorded_swarm_is_a_graph_at_every_frame(folder, capsys):
 
 def test_the_study_is_run_and_drawn(monkeypatch, folder, capsys):
     monkeypatch.setattr(connectivity_study, "SHORTER", ("length.iterations=120", "graphs.count=2"))
+    monkeypatch.setattr(connectivity_study, "DESIGNS", ("connectivity-pi1",))
     assert exit_code(["study", "connectivity", "--collect-only", "--out", "here"]) == 2
     assert exit_code(["study", "connectivity", "--runs", "1", "--workers", "1", "--out", "here"]) == 0
-    assert "drawn from 108 of 108 runs" in capsys.readouterr().out
+    assert "drawn from 36 of 36 runs" in capsys.readouterr().out
     for name in ("figure-2.png", "figure-2-best.png"):
         assert imread(folder / "here" / name).std() > 0.01
-    assert len((folder / "here" / "cells.csv").read_text().splitlines()) == 109
+    assert len((folder / "here" / "cells.csv").read_text().splitlines()) == 37
     report = (folder / "here" / "report.md").read_text()
     assert "| PI1, author* | directed |" in report
     assert "| PI1, honest | directed |" in report
