@@ -83,7 +83,7 @@ def test_the_published_curve_with_losses_is_one_of_many(method, mean, deviation,
     which, links = estimator(method, "author", **changes), LinksTable(drop=0.05)
     graphs = published_graphs()[:10]
     replicates = np.array([
-        curve(graphs, which, links, seed=140001 + 10 * k, iterations=1501, every=50, metric="paper").mean(axis=0)
+        curve(graphs, which, links, seed=144001 + 10 * k, iterations=1501, every=50, metric="paper").mean(axis=0)
         for k in range(40)
     ])  # fmt: skip
     assert replicates[:, places >= 1001].mean() == pytest.approx(mean, abs=0.75 * deviation)
