@@ -33,7 +33,7 @@ if not INTERPRETED:  # a robot of flesh, or a debugger, has no use for a compile
 
 # The rooms whose code decides results. Views, commands, campaigns and statistics only look at results.
 DECIDING = (
-    *("compiled.py", "streams.py", "tables.py", "angles.py"),
+    *("compiled.py", "streams.py", "tables.py", "angles.py", "connectivity", "studies/estimators.py"),
     *("physics", "robots", "devices", "control", "observers", "trial", "systems"),
 )
 

@@ -17,6 +17,7 @@ from formicarium.campaigns.errors import CrewError, DesignError, Explained, Futi
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
 from formicarium.commands.check import check
+from formicarium.commands.connectivity import connectivity
 from formicarium.commands.debug import debug
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
@@ -45,6 +46,7 @@ Start here:
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
     formicarium new my-swarm                a system of your own, laid out and working
+    formicarium connectivity FILE           how connected a graph is, and what its nodes can find out
 """
 
 app = App(
@@ -71,6 +73,7 @@ app.command(debug)
 app.command(tune)
 app.command(onboard)
 app.command(doctor)
+app.command(connectivity)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -14,7 +14,7 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
 def study(
-    name: Literal["sequencing", "partitioning"],
+    name: Literal["sequencing", "partitioning", "connectivity"],
     /,
     *,
     figure: Literal[
@@ -28,6 +28,7 @@ def study(
     check: Whole | None = None,
     sources: Several = (),
     from_tables: str | None = None,
+    reference: str | None = None,
 ) -> int:
     """Run a published study, or go on with it, and draw its figures beside the paper's numbers.
 
@@ -44,18 +45,20 @@ def study(
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
         formicarium study partitioning --figure 7 --runs 3
+        formicarium study connectivity --runs 5
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
+        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011) or
+        connectivity (Panerati et al. 2018, the estimators).
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11 and giving-up of partitioning.
+        S19 of sequencing; 7 to 11 and giving-up of partitioning; 2 of connectivity.
     out
         Folder of the campaigns, figures, tables and report.
     runs
-        Runs of each cell, instead of the design's (30, or 50 and 20).
+        Runs of each cell, instead of the design's (30; 50 and 20; 20).
     setting
         Of sequencing: run the cells of this setting alone (several times: of these);
         figures and report still show all that is there.
@@ -72,6 +75,9 @@ def study(
     from_tables
         Draw from tables/ as an earlier study wrote them, for example from
         docs/results/tables, instead of from campaigns; runs nothing.
+    reference
+        Of connectivity: folder of the published A10s.mat and errorvssteps-*.dat; the study
+        then runs on the first ten of these graphs and draws the paper's curves as points.
     """
     from formicarium.commands.errors import UserError
 
@@ -79,6 +85,8 @@ def study(
         raise UserError(f"--check {check}: must be at least 1")
     if name == "partitioning":
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
+    if name == "connectivity":
+        return _connectivity(figure, Path(out), runs, workers, collect_only, sources, reference)
     from formicarium.commands.published.answers import draw_study, run_study
     from formicarium.commands.published.store import Asked
 
@@ -103,3 +111,24 @@ def _partitioning(
         raise UserError("--sources: the study partitioning takes one")
     code = 0 if collect_only or sources else foraging.run_study(figure, out, runs, workers)
     return max(code, foraging.draw_study(figure, out, runs, sources[0] if sources else None))
+
+
+def _connectivity(
+    figure: str,
+    out: Path,
+    runs: int | None,
+    workers: int | None,
+    collect_only: bool,
+    sources: tuple[str, ...],
+    reference: str | None,
+) -> int:
+    from formicarium.commands import connectivity_study
+    from formicarium.commands.errors import UserError
+
+    if figure not in connectivity_study.FIGURES:
+        raise UserError(f"--figure {figure}: the study connectivity has {', '.join(connectivity_study.FIGURES)}")
+    if len(sources) > 1:
+        raise UserError("--sources: the study connectivity takes one")
+    runs_nothing = collect_only or sources
+    code = 0 if runs_nothing else connectivity_study.run_study(out, runs, workers, reference)
+    return max(code, connectivity_study.draw_study(out, runs, reference, sources[0] if sources else None))
