@@ -28,6 +28,8 @@ DECIDING = (
     *("compiled.py", "streams.py", "tables.py", "angles.py"),
     *("physics", "robots", "devices", "control", "observers", "trial", "systems"),
 )
+# Rooms with compiled code that no trial depends on: an edit there leaves the identity of trials alone.
+APART = ("scheduling",)
 
 
 def _python_files(place: Path) -> list[Path]:
@@ -40,8 +42,18 @@ def source_hash(folder: Path | None = None) -> str:
 
     Returns 16 hexadecimal digits. Part of a run's identity (law 8 of the house).
     """
+    return _hash_of(*(PACKAGE / name for name in DECIDING), *([folder] if folder else []))
+
+
+@functools.cache
+def room_hash(room: str) -> str:
+    """Hash of the sources of a room in ``APART``; 16 hexadecimal digits."""
+    return _hash_of(PACKAGE / "compiled.py", PACKAGE / room)
+
+
+def _hash_of(*places: Path) -> str:
     digest = hashlib.blake2b(digest_size=8)
-    for place in (*(PACKAGE / name for name in DECIDING), *([folder] if folder else [])):
+    for place in places:
         for file in _python_files(place):
             digest.update(file.name.encode())
             digest.update(file.read_bytes())
@@ -51,9 +63,12 @@ def source_hash(folder: Path | None = None) -> str:
 def cache_folder(function_file: str) -> Path:
     """Where the machine code of a function in this file is kept."""
     folder = Path(function_file).resolve().parent
-    own = None if folder.is_relative_to(PACKAGE) else folder
+    if folder.parent == PACKAGE and folder.name in APART:
+        sources = room_hash(folder.name)
+    else:
+        sources = source_hash(None if folder.is_relative_to(PACKAGE) else folder)
     root = os.environ.get("FORMICARIUM_CACHE_DIR") or user_cache_dir("formicarium", appauthor=False)
-    return Path(root) / f"numba-{numba.__version__}-{source_hash(own)}"
+    return Path(root) / f"numba-{numba.__version__}-{sources}"
 
 
 def compiled(function: Callable[..., Any]) -> Any:
