@@ -48,7 +48,7 @@ def source_hash(folder: Path | None = None) -> str:
 @functools.cache
 def room_hash(room: str) -> str:
     """Hash of the sources of a room in ``APART``; 16 hexadecimal digits."""
-    return _hash_of(PACKAGE / "compiled.py", PACKAGE / room)
+    return _hash_of(*(PACKAGE / name for name in ("compiled.py", "streams.py", room)))
 
 
 def _hash_of(*places: Path) -> str:

@@ -93,6 +93,58 @@ class Mixed:
         return info.objective_function_value, np.array(highs.getSolution().col_value), info.mip_dual_bound
 
 
+class Small:
+    """Small programmes one after the other, all rows "at most", given as arrays."""
+
+    def __init__(self) -> None:
+        """Prepare."""
+        self._highs = _quiet()
+
+    def solve(
+        self, cost, low, high, starts, index, value, limits, whole: np.ndarray | None, clock: Clock, cutoff: float
+    ) -> tuple[float, np.ndarray | None]:
+        """Return the least cost and the variables; infinite and None if nothing is below the cutoff.
+
+        Args:
+            cost: (n,) of the variables.
+            low: (n,) bounds.
+            high: (n,) bounds.
+            starts: (m + 1,) of the rows in the next two.
+            index: variables of the rows.
+            value: coefficients of the rows.
+            limits: (m,) of the rows.
+            whole: numbers of the variables that must be whole; None for none.
+            clock: if time runs out the answer is infinite.
+            cutoff: costs that are not below are of no interest.
+        """
+        highs, model = self._highs, highspy.HighsLp()
+        model.num_col_, model.num_row_ = len(cost), len(limits)
+        model.col_cost_, model.col_lower_, model.col_upper_ = cost, low, high
+        model.row_lower_, model.row_upper_ = np.full(len(limits), -INFINITY), np.asarray(limits, float)
+        model.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+        model.a_matrix_.start_, model.a_matrix_.index_ = starts.astype(np.int32), index.astype(np.int32)
+        model.a_matrix_.value_ = value
+        if whole is not None:
+            kinds = np.full(len(cost), highspy.HighsVarType.kContinuous)
+            kinds[whole] = highspy.HighsVarType.kInteger
+            model.integrality_ = list(kinds)
+        highs.setOptionValue("presolve", "choose" if whole is not None else "off")
+        highs.setOptionValue("objective_bound", cutoff)
+        highs.setOptionValue("mip_rel_gap", 1e-7)
+        highs.setOptionValue("time_limit", float(min(clock.left + 1.0, 1e8)))
+        highs.passModel(model)
+        with _interruptible():
+            highs.run()
+        status, info = highs.getModelStatus(), highs.getInfo()
+        if status in (highspy.HighsModelStatus.kObjectiveBound, highspy.HighsModelStatus.kInfeasible):
+            return INFINITY, None
+        if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
+            if status != highspy.HighsModelStatus.kTimeLimit:
+                raise ArithmeticError(f"HiGHS: {highs.modelStatusToString(status)}")
+            return INFINITY, None
+        return info.objective_function_value, np.array(highs.getSolution().col_value)
+
+
 def _quiet() -> highspy.Highs:
     highs = highspy.Highs()
     highs.setOptionValue("output_flag", False)
