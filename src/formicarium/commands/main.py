@@ -23,9 +23,11 @@ from formicarium.commands.export import export
 from formicarium.commands.movie import movie
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
+from formicarium.commands.schedule import schedule
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
 from formicarium.commands.watch import watch
+from formicarium.scheduling.instance import InstanceError
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
 
@@ -38,6 +40,7 @@ Start here:
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
+    formicarium schedule tasks.toml         tasks for a connected swarm, scheduled and proven
 """
 
 app = App(
@@ -58,6 +61,7 @@ app.command(systems)
 app.command(describe)
 app.command(campaign)
 app.command(study)
+app.command(schedule)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -74,7 +78,7 @@ def exit_code(arguments: Sequence[str]) -> int:
     except CycloptsError as error:
         command = " ".join(["formicarium", *arguments[:1]]) if arguments[:1] != ["--help"] else "formicarium"
         return _say(f"{_plain(error)} See: {command} --help", 2)
-    except (UserError, DesignError, StoreError) as error:
+    except (UserError, DesignError, InstanceError, StoreError) as error:
         return _say(str(error), 2)
     except (CrewError, Futile) as error:
         return _say(str(error), 1)

@@ -14,11 +14,12 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
 def study(
-    name: Literal["sequencing", "partitioning"],
+    name: Literal["sequencing", "partitioning", "scheduling"],
     /,
     *,
     figure: Literal[
-        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "all"
+        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up",
+        "table-2-time", "table-2-travel", "all",
     ] = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
@@ -44,18 +45,21 @@ def study(
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
         formicarium study partitioning --figure 7 --runs 3
+        formicarium study scheduling --figure table-2-time
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
+        The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011) or
+        scheduling (Panerati et al. 2018: 720 instances; needs the extra "scheduling").
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11 and giving-up of partitioning.
+        S19 of sequencing; 7 to 11 and giving-up of partitioning; table-2-time,
+        table-2-travel (with figures 7 and 8) of scheduling.
     out
         Folder of the campaigns, figures, tables and report.
     runs
-        Runs of each cell, instead of the design's (30, or 50 and 20).
+        Runs of each cell, instead of the design's (30; 50 and 20; 24).
     setting
         Of sequencing: run the cells of this setting alone (several times: of these);
         figures and report still show all that is there.
@@ -79,6 +83,8 @@ def study(
         raise UserError(f"--check {check}: must be at least 1")
     if name == "partitioning":
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
+    if name == "scheduling":
+        return _scheduling(figure, Path(out), runs, workers, collect_only)
     from formicarium.commands.published.answers import draw_study, run_study
     from formicarium.commands.published.store import Asked
 
@@ -103,3 +109,16 @@ def _partitioning(
         raise UserError("--sources: the study partitioning takes one")
     code = 0 if collect_only or sources else foraging.run_study(figure, out, runs, workers)
     return max(code, foraging.draw_study(figure, out, runs, sources[0] if sources else None))
+
+
+def _scheduling(figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool) -> int:
+    from formicarium.commands.errors import UserError
+    from formicarium.commands.extras import require
+
+    require("scheduling", "formicarium study scheduling")
+    from formicarium.commands import table_ii
+
+    if figure not in table_ii.TABLES:
+        raise UserError(f"--figure {figure}: the study scheduling has {', '.join(table_ii.TABLES)}")
+    code = 0 if collect_only else table_ii.run_study(figure, out, runs, workers)
+    return max(code, table_ii.draw_study(figure, out, runs))
