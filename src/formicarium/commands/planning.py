@@ -64,9 +64,7 @@ def _search(instance: Instance, wish: Wish) -> Answer:
             words = f"best {news.value:.6g}, bound {news.bound:.6g}, gap {gap:.1%}"
             shown.update(line, description=news.part, words=words)
 
-        return solve(
-            instance, wish.objective, wish.reach, wish.time_limit, charge_first=wish.charge_first, told=told
-        )
+        return solve(instance, wish.objective, wish.reach, wish.time_limit, charge_first=wish.charge_first, told=told)
 
 
 def _show(instance: Instance, answer: Answer, wish: Wish, written: list[Path]) -> None:

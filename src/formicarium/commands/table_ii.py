@@ -63,7 +63,9 @@ def _run(objective: Objective, folder: Path, runs: int | None, workers: int) -> 
                 report = run_campaign(jobs, writer, Processes(workers), progress=progress.show)
             except KeyboardInterrupt:
                 done = sum(ledger.has(key) for job in jobs for key in job.keys)
-                said = f"interrupted: {done} instances are done and kept in {ledger.folder}. The same command continues."
+                said = (
+                    f"interrupted: {done} instances are done and kept in {ledger.folder}. The same command continues."
+                )
                 raise KeyboardInterrupt(said) from None
     for run in report.failures[:3]:
         trouble.print(f"formicarium: seed {run.seed} {run.ending}\n{run.failure}", highlight=False, markup=False)

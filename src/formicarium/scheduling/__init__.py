@@ -1,8 +1,8 @@
 """Task schedules of a connected swarm, solved to proven optimality (Panerati et al. 2018, III-C); no simulator needed.
 
-    from formicarium.scheduling import read_instance, solve
-    answer = solve(read_instance("tasks.toml"), time_limit=60)
-    print(answer.value, answer.bound, answer.schedule)
+from formicarium.scheduling import read_instance, solve
+answer = solve(read_instance("tasks.toml"), time_limit=60)
+print(answer.value, answer.bound, answer.schedule)
 """
 
 from typing import Any

@@ -62,8 +62,9 @@ def improve(
             masks[one] ^= np.int64(1) << task
             masks[two] ^= np.int64(1) << task
         elif kind < 0.8:  # two tasks change slots
-            task, other = pick(masks[one], uniform(derived(draws, 3)), size), pick(
-                masks[two], uniform(derived(draws, 4)), size
+            task, other = (
+                pick(masks[one], uniform(derived(draws, 3)), size),
+                pick(masks[two], uniform(derived(draws, 4)), size),
             )
             if task < 0 or other < 0:
                 continue

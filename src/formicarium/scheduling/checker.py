@@ -4,6 +4,7 @@ Lengths are rounded to nanometres once, and every comparison after that is exact
 ``SLACK`` nanometres at each task, because deployment points are written with a finite number of digits.
 """
 
+import itertools
 from collections.abc import Sequence
 from math import isqrt
 from typing import NamedTuple
@@ -55,11 +56,13 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     for first, second in instance.priorities:
         if first in place and second in place and place[first] >= place[second]:
             faults.append(f"{first} is not done before {second}")
-    time = sum(max((tasks[arm.task].duration for arm in s.arms if arm.task in tasks), default=0.0) for s in schedule.slots)
+    time = sum(
+        max((tasks[arm.task].duration for arm in s.arms if arm.task in tasks), default=0.0) for s in schedule.slots
+    )
     if time_limit is not None and time > time_limit + 1e-6:
         faults.append(f"takes {time}, more than {time_limit}")
     points = [(_nano(slot.x), _nano(slot.y)) for slot in schedule.slots]
-    trip = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in zip(points, points[1:]))
+    trip = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in itertools.pairwise(points))
     start = (_nano(instance.start[0]), _nano(instance.start[1]))
     first = abs(points[0][0] - start[0]) + abs(points[0][1] - start[1]) if points else 0
     relays = sum(arm.relays for slot in schedule.slots for arm in slot.arms)

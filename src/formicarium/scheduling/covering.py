@@ -109,7 +109,9 @@ class Covering:
                 boxes = MANY_BOXES
             if value / worst > least or exact:
                 least = max(least, value / worst)
-                used = {columns[k][0]: a for k, a in enumerate(amounts[: len(columns)]) if a > EPSILON and columns[k][0]}
+                used = {
+                    columns[k][0]: a for k, a in enumerate(amounts[: len(columns)]) if a > EPSILON and columns[k][0]
+                }
                 best = Cover(least, gains / worst, np.diff(paid, prepend=0.0) / worst, used, exact)
             rounded = np.ceil(least / whole - 1e-6) * whole
             if exact or not found or rounded >= enough or self.clock.seconds > until:

@@ -70,7 +70,9 @@ def _faults_of_swarm(instance: Instance) -> list[str]:
         faults.append("there is no task: list at least one under 'tasks'")
     if instance.robots < 2:
         faults.append(f"the swarm has {instance.robots} robots: a master and at least one more are needed")
-    faults += [f"team {k + 1} has {t.robots} robots: must be at least 1" for k, t in enumerate(instance.teams) if t.robots < 1]
+    faults += [
+        f"team {k + 1} has {t.robots} robots: must be at least 1" for k, t in enumerate(instance.teams) if t.robots < 1
+    ]
     if not (_finite(instance.spacing) and instance.spacing > 0):
         faults.append(f"spacing = {instance.spacing}: must be a length above 0 m")
     if instance.paths < 1:

@@ -128,14 +128,15 @@ def search(
                     whole_set += 1
             point_like = max(x1 - x0, y1 - y0) <= SMALLEST * spacing
             if point_like or (
-                reach != EUCLID
-                and meet(reals[3], reals[4], whole[3], whole_set, spacing, reach, x0, y0, x1, y1, point)
+                reach != EUCLID and meet(reals[3], reals[4], whole[3], whole_set, spacing, reach, x0, y0, x1, y1, point)
             ):
                 found, best = keep(sets, found, count, kept, items, chosen), value
                 if most <= value + EPSILON:
                     continue
         x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
-        kept = weigh(x, y, x, y, gains, places, demands, limits, spacing, paths, reach, some, middle_weights, items, hops)
+        kept = weigh(
+            x, y, x, y, gains, places, demands, limits, spacing, paths, reach, some, middle_weights, items, hops
+        )
         here, _ = fill(some, middle_weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen)
         if here > best + EPSILON:
             found, best = keep(sets, found, count, kept, items, chosen), here

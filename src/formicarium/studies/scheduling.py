@@ -76,7 +76,9 @@ class ChangedSources(Futile):
     """A worker found other sources than those that the rows stand for."""
 
 
-def solve_one(number: int, density: float, objective: Objective, sources: str, seed: int, watch: Watch | None) -> Result:
+def solve_one(
+    number: int, density: float, objective: Objective, sources: str, seed: int, watch: Watch | None
+) -> Result:
     """Solve one instance as the paper prints it: its octagon, its first hop free."""
     from formicarium.scheduling.solver import shorten, solve
 

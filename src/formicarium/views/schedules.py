@@ -1,5 +1,6 @@
 """Schedules on paper: a map of deployment points, arms and slots (as the paper's Fig. 6), and a chart over time."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,7 @@ def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
     axes.set_xlabel("x, m", size=10)
     axes.set_ylabel("y, m", size=10)
     points = [instance.start, *((slot.x, slot.y) for slot in schedule.slots)]
-    for number, (one, other) in enumerate(zip(points, points[1:])):
+    for number, (one, other) in enumerate(itertools.pairwise(points)):
         style = {"arrowstyle": "-|>", "color": PALE_INK, "lw": 1.1, "shrinkA": 9, "shrinkB": 9}
         style |= {"ls": (0, (2, 3))} if number == 0 else {}
         axes.annotate("", other, one, arrowprops=style, zorder=1)
@@ -112,6 +113,4 @@ def _number_slots(axes: Axes, schedule: Schedule, near: float) -> None:
 
 def _note(answer: Answer, schedule: Schedule) -> str:
     known = "proven best" if answer.proven else f"within {answer.gap:.1%} of the best"
-    return (
-        f"time {schedule.time:g}, trip {schedule.trip:.1f} m, {schedule.relays} relays; {known}"
-    )
+    return f"time {schedule.time:g}, trip {schedule.trip:.1f} m, {schedule.relays} relays; {known}"
