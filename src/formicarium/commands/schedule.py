@@ -1,6 +1,5 @@
 """``formicarium schedule FILE``: when a connected swarm does which task, from where, and how good that is."""
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter

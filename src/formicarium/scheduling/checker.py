@@ -64,9 +64,9 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     points = [(_nano(slot.x), _nano(slot.y)) for slot in schedule.slots]
     trip = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in itertools.pairwise(points))
     start = (_nano(instance.start[0]), _nano(instance.start[1]))
-    first = abs(points[0][0] - start[0]) + abs(points[0][1] - start[1]) if points else 0
+    outward = abs(points[0][0] - start[0]) + abs(points[0][1] - start[1]) if points else 0
     relays = sum(arm.relays for slot in schedule.slots for arm in slot.arms)
-    return Verdict(tuple(faults), time, trip / NANOMETRES, first / NANOMETRES, relays, over_radio)
+    return Verdict(tuple(faults), time, trip / NANOMETRES, outward / NANOMETRES, relays, over_radio)
 
 
 def _nano(length: float) -> int:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from formicarium.scheduling.clock import Clock, OutOfTime
-from formicarium.scheduling.covering import Cover, Covering, Layer
+from formicarium.scheduling.covering import Cover, Covering, Layer, Set
 from formicarium.scheduling.deployment import Places
 from formicarium.scheduling.enumeration import sets_below
 from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
@@ -109,7 +109,7 @@ class Search:
         """Choose among all sets whose reduced cost allows a better schedule: then the choice is the proof."""
         problem, gap = self.problem, self.best.value - 1 - cover.bound
         paid = np.cumsum(cover.layer_gains)
-        sets = []
+        sets: list[Set] = []
         for layer, price in zip(layers, paid):
             allowed = problem.ticks <= layer.ticks
             worth = layer.ticks - price - gap - 1e-6

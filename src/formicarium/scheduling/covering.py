@@ -99,8 +99,8 @@ class Covering:
                     priced = self._prices.best(gains, allowed[level], worth + EPSILON, boxes)
                     worst = max(worst, (priced.bound + paid[level]) / levels[level])
                     exact = exact and priced.bound <= worth + 2 * EPSILON
-                    for chosen in priced.sets[-12:]:
-                        whole_set = tuple(int(t) for t in chosen)
+                    for tasks_found in priced.sets[-12:]:
+                        whole_set = tuple(int(t) for t in tasks_found)
                         self.sets[whole_set] = None
                         put(whole_set, level)
                         found += 1

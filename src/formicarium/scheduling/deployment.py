@@ -121,7 +121,7 @@ def find_place(places, spacing, reach, region, most, boxes, hops, found):
 
 @compiled
 def meet(xs, ys, hops, count, spacing, reach, x0, y0, x1, y1, found):
-    """Tell whether octagons around the first ``count`` tasks, ``hops`` + 1 steps wide, share a point with a box; give one."""
+    """Tell whether octagons around tasks, ``hops`` + 1 steps wide, share a point with a box, and give one."""
     plus_low, plus_high, minus_low, minus_high = x0 + y0, x1 + y1, x0 - y1, x1 - y0
     for task in range(count):
         radius = (hops[task] + 1 + TOLERANCE) * spacing

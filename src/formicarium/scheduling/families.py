@@ -50,7 +50,7 @@ class Family:
             self._starts[task + 1] = place
 
     def leaving_time(self, covered: int, ticks: int) -> np.ndarray:
-        """Return the sets that share no task with ``covered`` and after which the rest can be done in the ticks left."""
+        """Return the sets, none with a task of ``covered``, after which the rest can be done in the ticks left."""
         return self.in_time(self.sets[self.sets & covered == 0], covered, ticks)
 
     def in_time(self, sets: np.ndarray, covered: int, ticks: int) -> np.ndarray:

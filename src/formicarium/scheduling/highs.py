@@ -101,23 +101,19 @@ class Small:
         self._highs = _quiet()
 
     def solve(
-        self, cost, low, high, starts, index, value, limits, whole: np.ndarray | None, clock: Clock, cutoff: float
+        self, programme: tuple[np.ndarray, ...], whole: np.ndarray | None, clock: Clock, cutoff: float
     ) -> tuple[float, np.ndarray | None]:
         """Return the least cost and the variables; infinite and None if nothing is below the cutoff.
 
         Args:
-            cost: (n,) of the variables.
-            low: (n,) bounds.
-            high: (n,) bounds.
-            starts: (m + 1,) of the rows in the next two.
-            index: variables of the rows.
-            value: coefficients of the rows.
-            limits: (m,) of the rows.
+            programme: cost (n,), lower and upper bound (n,) of the variables; starts (m + 1,) of the rows in the
+                next two; variables and coefficients of the rows; limits (m,) of the rows.
             whole: numbers of the variables that must be whole; None for none.
             clock: if time runs out the answer is infinite.
             cutoff: costs that are not below are of no interest.
         """
         highs, model = self._highs, highspy.HighsLp()
+        cost, low, high, starts, index, value, limits = programme
         model.num_col_, model.num_row_ = len(cost), len(limits)
         model.col_cost_, model.col_lower_, model.col_upper_ = cost, low, high
         model.row_lower_, model.row_upper_ = np.full(len(limits), -INFINITY), np.asarray(limits, float)

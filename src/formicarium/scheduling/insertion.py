@@ -32,7 +32,7 @@ class Insertions:
             goal: bounds at or above are of no interest.
 
         Returns:
-            The bounds, NEVER for what is of no interest, and (T,) what the arm to each task that is left costs at least.
+            The bounds, NEVER for what is of no interest, and (T,) what each arm that is left costs at least.
         """
         found = np.full((len(sets), len(tour) + 1), np.float32(NEVER), np.float32)
         lattice, problem = self.lattice, self.problem

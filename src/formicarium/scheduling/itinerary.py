@@ -45,7 +45,7 @@ class Itineraries:
 
     def bound(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> float:
         """Return a lower bound of the cost of slots in this order: arms of any length, not whole numbers of hops."""
-        value, _ = self._solver.solve(*self._programme(slots, []), None, self._clock, cutoff)
+        value, _ = self._solver.solve(self._programme(slots, []), None, self._clock, cutoff)
         return value
 
     def cheapest(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> Itinerary | None:
@@ -53,7 +53,7 @@ class Itineraries:
         more: list[tuple[int, float, float]] = []
         for _ in range(MOST_ROUNDS):
             whole = 2 * len(slots) + np.arange(sum(map(len, slots)))
-            value, amounts = self._solver.solve(*self._programme(slots, more), whole, self._clock, cutoff)
+            value, amounts = self._solver.solve(self._programme(slots, more), whole, self._clock, cutoff)
             if amounts is None:
                 return None
             points = amounts[: 2 * len(slots)].reshape(-1, 2)

@@ -21,6 +21,7 @@ from formicarium.compiled import room_hash
 from formicarium.scheduling.checker import check
 from formicarium.scheduling.generator import DENSITIES, draw_instance
 from formicarium.scheduling.schedule import Answer, Schedule
+from formicarium.scheduling.solver import shorten, solve
 from formicarium.studies.chart import Chart, Panel, Spread
 
 Objective = Literal["time", "travel"]
@@ -80,8 +81,6 @@ def solve_one(
     number: int, density: float, objective: Objective, sources: str, seed: int, watch: Watch | None
 ) -> Result:
     """Solve one instance as the paper prints it: its octagon, its first hop free."""
-    from formicarium.scheduling.solver import shorten, solve
-
     if room_hash(ROOM) != sources:
         raise ChangedSources("the sources were edited while the study ran; run the same command again")
     instance = draw_instance(number, density, seed)
@@ -92,7 +91,7 @@ def solve_one(
         raw = answer.schedule
         row |= {"time_trip_m": raw.trip, "time_relays": raw.relays, "time_proven": answer.proven}
         answer = shorten(instance, raw, "printed", LIMIT, charge_first=False, processor_time=True)
-        assert answer.schedule is not None
+    assert answer.schedule is not None
     return Result(row | _row(instance, answer, answer.schedule), {})
 
 
@@ -130,6 +129,7 @@ class Cell(NamedTuple):
     def content(self, objective: Objective) -> dict[str, Any]:
         """Return a row of the table of cells, the paper's mean beside ours."""
         seconds = [row["seconds"] for row in self.rows]
+        open_gaps = [row["gap"] for row in self.rows if row["ended"] != "proven"]
         return {
             "class": self.number,
             "density": self.density,
@@ -139,7 +139,7 @@ class Cell(NamedTuple):
             "median_s": statistics.median(seconds),
             "worst_s": max(seconds),
             "paper_mean_s": PAPER[objective][self.number][DENSITIES.index(self.density)],
-            "median_gap_of_open": statistics.median([row["gap"] for row in self.rows if row["ended"] != "proven"] or [0.0]),
+            "median_gap_of_open": statistics.median(open_gaps or [0.0]),
             "worst_gap": max(row["gap"] for row in self.rows),
         }  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 import itertools
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,7 +36,7 @@ def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
     axes.set_ylabel("y, m", size=10)
     points = [instance.start, *((slot.x, slot.y) for slot in schedule.slots)]
     for number, (one, other) in enumerate(itertools.pairwise(points)):
-        style = {"arrowstyle": "-|>", "color": PALE_INK, "lw": 1.1, "shrinkA": 9, "shrinkB": 9}
+        style: dict[str, Any] = {"arrowstyle": "-|>", "color": PALE_INK, "lw": 1.1, "shrinkA": 9, "shrinkB": 9}
         style |= {"ls": (0, (2, 3))} if number == 0 else {}
         axes.annotate("", other, one, arrowprops=style, zorder=1)
     axes.plot(*instance.start, marker="s", ms=6, color=PAPER, mec=INK, zorder=3)
@@ -106,7 +107,14 @@ def _number_slots(axes: Axes, schedule: Schedule, near: float) -> None:
         first = left[0][1]
         here = [number for number, slot in left if abs(slot.x - first.x) + abs(slot.y - first.y) <= near]
         left = [(number, slot) for number, slot in left if number not in here]
-        style = {"ha": "center", "va": "center", "size": 8, "color": PAPER, "weight": "bold", "zorder": 5}
+        style: dict[str, Any] = {
+            "ha": "center",
+            "va": "center",
+            "size": 8,
+            "color": PAPER,
+            "weight": "bold",
+            "zorder": 5,
+        }
         box = {"boxstyle": "round,pad=0.25", "fc": INK, "ec": PAPER} if len(here) > 1 else None
         axes.annotate(", ".join(map(str, here)), (first.x, first.y), bbox=box, **style)
 
