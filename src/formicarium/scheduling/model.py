@@ -126,9 +126,9 @@ def _capabilities(model: Mixed, instance: Instance, columns: _Columns) -> None:
                 crew.append(model.column(0.0, 0.0, float(task.robots), whole=True))
                 used[team].append(crew[-1])
             model.row(0.0, [(u, 1.0) for u in crew] + [(columns.x[t, s], -float(task.robots))], 0.0)  # A3
-        for team, busy in zip(instance.teams, used):
+        for group, busy in zip(instance.teams, used):
             if busy:
-                model.row(-INFINITY, [(u, 1.0) for u in busy], float(team.robots))  # A4
+                model.row(-INFINITY, [(u, 1.0) for u in busy], float(group.robots))  # A4
 
 
 def _travel(model: Mixed, instance: Instance, columns: _Columns, charge_first: bool) -> None:

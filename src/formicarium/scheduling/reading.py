@@ -134,7 +134,8 @@ def _read_csv(path: Path) -> Any:
         if None in line or None in line.values():
             raise ValueError(f"line {number} has another number of fields than the first line")
         task: dict[str, Any] = {name.strip(): value.strip() for name, value in line.items() if value.strip()}
-        tasks.append({**task, **{name: task[name].split() for name in ("needs", "after") if name in task}})
+        task.update({name: task[name].split() for name in ("needs", "after") if name in task})
+        tasks.append(task)
     return {"tasks": tasks} if tasks else {}
 
 
