@@ -1,6 +1,8 @@
 """HiGHS as this room uses it: one thread, silent, and it hears Ctrl-C and the clock."""
 
+import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -142,11 +144,26 @@ class Small:
 
 
 def _quiet() -> highspy.Highs:
-    highs = highspy.Highs()
+    with _hushed():
+        highs = highspy.Highs()
     highs.setOptionValue("output_flag", False)
     highs.setOptionValue("threads", 1)
     highs.setOptionValue("parallel", "off")
     return highs
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Keep the greeting that HiGHS writes on its first use, past Python, from the terminal."""
+    sys.stdout.flush()
+    saved, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        os.dup2(saved, 1)
+        os.close(saved)
+        os.close(nowhere)
 
 
 @contextmanager
