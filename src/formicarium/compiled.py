@@ -69,7 +69,7 @@ def _hash_of(*names: str) -> str:
 
 
 def cache_folder(*modules: tuple[str, str | None]) -> Path:
-    """Where machine code is kept that knows these modules: (file, name of its package) of each, the function's first."""
+    """Where machine code is kept that knows these modules: (file, its package) of each, the function's own first."""
     own: set[Path] = set()
     package = source_hash()
     for k, (file, name) in enumerate(modules):
