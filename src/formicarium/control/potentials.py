@@ -11,8 +11,8 @@ CENTIMETRES = 100.0  # in a metre
 def lennard_jones(distance, spacing, depth):
     """Return the force away from a neighbour, here a velocity: F = (4 eps / x) ((tau / x)^4 - (tau / x)^2), m/s.
 
-    Minus the slope of V(x) = eps ((tau / x)^4 - 2 (tau / x)^2): lowest, -eps, at x = tau. This is equation 2 with a = 4,
-    b = 2 and the exponents put right.
+    Minus the slope of V(x) = eps ((tau / x)^4 - 2 (tau / x)^2), which is lowest, -eps, at x = tau. This is equation 2
+    with a = 4, b = 2 and the exponents put right.
 
     Args:
         distance: x, m.

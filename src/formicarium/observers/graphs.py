@@ -41,24 +41,28 @@ PLACE = np.dtype([("reached", "i8", GRAPHS), ("queue", "i8"), ("mark", "i8")], a
 
 
 @compiled
-def is_link(state, graph, i, n):
-    """Tell whether body i and its n-th neighbour are linked."""
-    near = state.world.neighbours[i, n]
-    j = near.index
-    if state.robots[j].alive == 0 or near.distance > state.footbot[0].radio_range:
-        return False
-    if graph == Graph.SIGHT:
-        return state.sight[i, j] == 1
-    if graph == Graph.HEARD:
-        oldest = state.clock[0].cycle - LATELY
-        return state.heard[i, j] > oldest and state.heard[j, i] > oldest
-    return True
+def find_links(state):
+    """Write for every body and neighbour in which graphs they are linked: links (N, N - 1), a bit for each graph."""
+    oldest = state.clock[0].cycle - LATELY
+    radio_range = state.footbot[0].radio_range
+    for i in range(len(state.robots)):
+        for n in range(state.world.neighbour_count[i]):
+            near = state.world.neighbours[i, n]
+            j = near.index
+            bits = 0
+            if near.distance <= radio_range and state.robots[i].alive == 1 and state.robots[j].alive == 1:
+                bits = 1 << Graph.RANGE
+                if state.sight[i, j] == 1:
+                    bits |= 1 << Graph.SIGHT
+                if state.heard[i, j] > oldest and state.heard[j, i] > oldest:
+                    bits |= 1 << Graph.HEARD
+            state.links[i, n] = bits
 
 
 @compiled
-def flood(state, graph, start, without, mark):
+def flood(neighbours, neighbour_count, links, places, graph, start, without, mark):
     """Mark all that can be reached from body ``start`` but not through body ``without``; return how many they are."""
-    places = state.places
+    bit = 1 << graph
     places[0].queue = start
     places[start].mark = mark
     count = 1
@@ -66,9 +70,9 @@ def flood(state, graph, start, without, mark):
     while done < count:
         i = places[done].queue
         done += 1
-        for n in range(state.world.neighbour_count[i]):
-            j = state.world.neighbours[i, n].index
-            if places[j].mark != mark and j != without and is_link(state, graph, i, n):
+        for n in range(neighbour_count[i]):
+            j = neighbours[i, n].index
+            if links[i, n] & bit != 0 and places[j].mark != mark and j != without:
                 places[j].mark = mark
                 places[count].queue = j
                 count += 1
@@ -79,19 +83,23 @@ def flood(state, graph, start, without, mark):
 def see_connection(state, graph, master):
     """Note who reaches the master (body ``master``) in one graph, and keep count of losses; tell if that changed."""
     connection = state.connections[graph]
+    neighbours, counts = state.world.neighbours, state.world.neighbour_count
     living = 0
     for i in range(len(state.robots)):
         state.places[i].mark = 0
         living += state.robots[i].alive
     connection.living = living
-    connection.reached = flood(state, graph, master, -1, 1) if state.robots[master].alive == 1 else 0
-    connection.components = 1 if connection.reached > 0 else 0
+    connection.reached = 0
+    connection.components = 0
+    if state.robots[master].alive == 1:
+        connection.reached = flood(neighbours, counts, state.links, state.places, graph, master, -1, 1)
+        connection.components = 1
     for i in range(len(state.robots)):
         state.places[i].reached[graph] = state.places[i].mark
     if connection.reached < living:
         for i in range(len(state.robots)):
             if state.places[i].mark == 0 and state.robots[i].alive == 1:
-                flood(state, graph, i, -1, 2)
+                flood(neighbours, counts, state.links, state.places, graph, i, -1, 2)
                 connection.components += 1
     return note_loss(connection, state.clock[0].cycle)
 
@@ -127,6 +135,9 @@ def count_cut_robots(state, graph):
             start += 1
         for k in range(len(state.robots)):
             state.places[k].mark = 0
-        if flood(state, graph, start, i, 3) < living - 1:
+        reached = flood(
+            state.world.neighbours, state.world.neighbour_count, state.links, state.places, graph, start, i, 3
+        )
+        if reached < living - 1:
             count += 1
     return count

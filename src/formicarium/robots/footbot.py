@@ -1,6 +1,6 @@
-"""The foot-bot and its kin as tables: discs that hear who is where, and what crosses their controllers' boundary.
+"""The foot-bot and its kin as tables: discs that hear who is where. And what crosses the controller's boundary.
 
-Robot frame: ``ahead`` is forward, ``aside`` is left, bearings counter-clockwise from the heading, in (-pi, pi]. SI units.
+Robot frame: ``ahead`` is forward, ``aside`` left, bearings counter-clockwise from the heading, in (-pi, pi]. SI units.
 Rows: Panerati et al. 2018 [paper], their public ARGoS and Python files [files], the foot-bot's simulator model [model],
 and engineering choices where all are silent [choice].
 """
@@ -31,17 +31,25 @@ class Footbot(Table):
     wheel_distance: float = number(0.14, "m", "between the wheels [model]", gt=0)
     speed: float = number(0.15, "m/s", "v_max, of the body [paper]", gt=0, le=0.6)
     wheel_noise: float = number(0.0, "1", "standard deviation of a wheel's speed, relative", ge=0, le=0.5)
-    wheel_bias: float = number(0.0, "1", "standard deviation over robots of a constant error of the left wheel", ge=0, le=0.2)
+    wheel_bias: float = number(
+        0.0, "1", "standard deviation over robots of a constant error of the left wheel", ge=0, le=0.2
+    )
     lag: float = number(0.0, "s", "time constant with which the wheels follow their command", ge=0, le=2)
-    odometry_drift: float = number(0.0, "1", "standard deviation over robots of the error in path and turn", ge=0, le=0.1)
+    odometry_drift: float = number(
+        0.0, "1", "standard deviation over robots of the error in path and turn", ge=0, le=0.1
+    )
 
     radio_range: float = number(3.0, "m", "r, centre to centre; a link if not farther [paper]", gt=0, le=10)
     occlusion: bool = number(True, "1", "a body on the line between two robots blocks their messages [model]")
-    radio_loss: float = number(0.0, "1", "probability that a message is lost, each receiver by itself [files: 0]", ge=0, le=1)
+    radio_loss: float = number(
+        0.0, "1", "probability that a message is lost, each receiver by itself [files: 0]", ge=0, le=1
+    )
     range_noise: float = number(0.0, "m", "standard deviation of a measured range [files: 0]", ge=0, le=0.5)
     bearing_noise: float = number(0.0, "rad", "standard deviation of a measured bearing [files: 0]", ge=0, le=1)
     message_bytes: int = number(500, "bytes", "longest message, one a cycle [files]", ge=100, le=500)
-    beacon_range: float = number(0.5, "m", "from the middle, at which a task's beacon is noticed [choice ST-43]", gt=0, le=3)
+    beacon_range: float = number(
+        0.5, "m", "from the middle, at which a task's beacon is noticed [choice ST-43]", gt=0, le=3
+    )
 
     @classmethod
     def layout(cls) -> np.dtype:

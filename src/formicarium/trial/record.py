@@ -35,6 +35,11 @@ class Scene(NamedTuple):
     cycle_time: float  # seconds
     ranges: tuple[tuple[str, float], ...] = ()  # names and reaches of the robots' senses, metres, to be drawn
 
+    @property
+    def longest_link(self) -> float:
+        """Length up to which a link between two robots is drawn, metres: 18 radii, or the radio's reach if longer."""
+        return max([18 * self.radius, *(reach for name, reach in self.ranges if name == "radio")])
+
 
 class Frames(NamedTuple):
     """Snapshots of all robots at F chosen cycles; N robots, in the order of their identities."""

@@ -75,7 +75,7 @@ class Overhead:
             return bands(places[chained], 10 * self.scene.radius)
         other = frames.joined[index]
         pairs = np.stack([places, places[other]], axis=1)[other >= 0]
-        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < 18 * self.scene.radius])
+        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < self.scene.longest_link])
 
     def _letter(self, role: int, carried: int):
         text = self.styles[role].letter or (str(carried) if carried else "")

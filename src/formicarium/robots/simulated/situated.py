@@ -4,26 +4,49 @@ import math
 
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
-from formicarium.physics.rays import bodies_in_line_of_sight
 from formicarium.streams import advanced, normal
 
 
 @compiled
 def find_sight(world, sight, radio_range):
-    """Write for every pair of bodies within ``radio_range`` (m) whether no body is between them: sight (N, N), 1 or 0."""
+    """Write into ``sight`` (N, N) for every pair within ``radio_range`` (m) 1 if no body is between them, else 0.
+
+    As ``physics.rays.bodies_in_line_of_sight``, for a world without scenery: pairs are looked at once.
+    """
     sight[:] = 0
-    for i in range(len(world.bodies)):
+    bodies = world.bodies
+    neighbours = world.neighbours
+    for i in range(len(bodies)):
+        rank = world.lists[i].rank
         for n in range(world.neighbour_count[i]):
-            near = world.neighbours[i, n]
-            if near.distance <= radio_range and world.lists[near.index].rank > world.lists[i].rank:
-                if bodies_in_line_of_sight(world, i, n):
-                    sight[i, near.index] = 1
-                    sight[near.index, i] = 1
+            j = neighbours[i, n].index
+            if neighbours[i, n].distance <= radio_range and world.lists[j].rank > rank:
+                if is_clear(bodies, neighbours, i, n, world.neighbour_count[i]):
+                    sight[i, j] = 1
+                    sight[j, i] = 1
+
+
+@compiled
+def is_clear(bodies, neighbours, i, n, count):
+    """Tell whether no third body is on the line from body ``i``, which has ``count`` neighbours, to its n-th."""
+    x = neighbours[i, n].dx
+    y = neighbours[i, n].dy
+    distance = neighbours[i, n].distance
+    square = distance * distance
+    for between in range(count):
+        near = neighbours[i, between]
+        along = near.dx * x + near.dy * y
+        if between != n and 0.0 < along < square:
+            across = near.dx * y - near.dy * x
+            hidden = bodies[near.index].radius * distance
+            if across * across < hidden * hidden:
+                return False
+    return True
 
 
 @compiled
 def measure_speaker(packet, near, heading, noise, footbot):
-    """Measure range + N(0, sigma_r) and bearing + N(0, sigma_b) of a speaker; ``near`` points from it to the listener."""
+    """Measure range + N(0, sigma_r) and bearing + N(0, sigma_b) of a speaker; ``near`` leads from it to here."""
     noise = advanced(noise)
     packet.range = max(0.0, near.distance + footbot.range_noise * normal(noise))
     noise = advanced(noise)

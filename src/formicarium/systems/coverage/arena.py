@@ -1,14 +1,14 @@
-"""An open floor with tasks on it. Nothing stands there; the arena of the paper is 30 m wide and has no walls (ST-23)."""
+"""An open floor with tasks on it. The paper's arena is 30 m wide and has no walls (ST-23)."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
+from formicarium.physics.records import records
 from formicarium.robots.footbot import BEACON
 from formicarium.streams import generator
 from formicarium.systems.coverage.parameters import CoverageParameters
-from formicarium.physics.records import records
 
 HALF_SIDE = 15.0  # m, of the paper's arena
 KEPT_OFF = 0.05  # share of the side that random tasks keep off the edge [notebook]

@@ -1,4 +1,4 @@
-"""Eruption of prominences: find the arm's direction, spiral into line, and let the potential push (SECS, ST-35 to ST-43)."""
+"""Eruption of prominences (SECS): find the arm's direction, spiral into line, be pushed (ST-35 to ST-43)."""
 
 import math
 

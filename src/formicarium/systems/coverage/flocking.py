@@ -26,9 +26,8 @@ def flock(reading, memory, command, table, limit):
     leader = -1
     for k in range(reading.packet_count):
         packet = reading.packets[k]
-        if packet.linked == 1 and packet.hops == 0:
-            leader = k
-        elif leader < 0 and packet.sender == memory.parent:
+        is_master = packet.linked == 1 and packet.hops == 0
+        if is_master or (leader < 0 and packet.sender == memory.parent):
             leader = k
         distance = max(LEAST, packet.range)
         pull = share * table.cohesion

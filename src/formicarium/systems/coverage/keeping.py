@@ -58,7 +58,7 @@ def choose_anchor(reading, memory, table, limit):
 
 @compiled
 def note_links(reading, memory, table, limit):
-    """Bring the links up to date: the anchor, those who name this robot as theirs, and nobody who was silent too long."""
+    """Bring the links up to date: the anchor, those whose anchor one is, and nobody who was silent too long."""
     choose_anchor(reading, memory, table, limit)
     for k in range(reading.packet_count):
         packet = reading.packets[k]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from formicarium.compiled import compiled
-from formicarium.observers.graphs import GRAPHS, Graph, count_cut_robots, see_connection
+from formicarium.observers.graphs import GRAPHS, Graph, count_cut_robots, find_links, see_connection
 from formicarium.observers.prominences import TARGETS, see_axis
 from formicarium.observers.spectrum import lambda_2
 from formicarium.robots.footbot import ARMS
@@ -68,8 +68,7 @@ SURVEY = np.dtype(
         ("bytes_most", "i8"),
         ("bytes_sum", "i8"),
         ("messages", "i8"),
-        ("phases", "i8", 8),  # cycle at which the master called out each epoch
-        ("fastest", "f8"),  # m/s, of any body in any cycle
+        ("fastest", "f8"),  # m2/s2, square of the greatest speed of any body
     ],
     align=True,
 )
@@ -103,8 +102,8 @@ def note(state):
     """Write down what has happened in this cycle. Nothing here is seen by a robot."""
     clock = state.clock[0]
     survey = state.survey[0]
-    for i in range(len(state.robots)):
-        note_robot(state, i)
+    note_robots(state)
+    find_links(state)
     for graph in range(GRAPHS):
         note_connection(state, graph)
     for k in range(len(state.axes)):
@@ -121,34 +120,33 @@ def note(state):
 
 
 @compiled
-def note_robot(state, i):
-    """Log what a robot has newly become, heard or chosen, and measure what it said and how fast it moved."""
+def note_robots(state):
+    """Log what robots have newly become, heard or chosen, and measure what they say and how fast they move."""
     clock = state.clock[0]
     survey = state.survey[0]
-    robot = state.robots[i]
-    memory = state.memories[i]
-    seen = state.seen[i]
-    if robot.alive == 0 and robot.dies_at == clock.cycle:
-        write_event(clock, state.events, EventKind.DIED, robot.identity, 0, 0, 0)
-    if memory.epoch != seen.epoch and robot.alive == 1:
-        seen.epoch = memory.epoch
-        write_event(clock, state.events, EventKind.PHASE, robot.identity, memory.mode, memory.epoch, 0)
-        if memory.master == 1 and memory.epoch <= len(survey.phases):
-            survey.phases[memory.epoch - 1] = clock.cycle
-    if memory.arm != seen.arm:
-        write_event(clock, state.events, EventKind.ARM, robot.identity, memory.arm, seen.arm, 0)
-        seen.arm = memory.arm
-    role = role_of(robot, memory)
-    if role != seen.role:
-        write_event(clock, state.events, EventKind.ROLE, robot.identity, 0, role, seen.role)
-        seen.role = role
-    if state.commands[i].enabled[0] == 1:
-        size = state.commands[i].message.bytes
-        survey.bytes_most = max(survey.bytes_most, size)
-        survey.bytes_sum += size
-        survey.messages += 1
-    body = state.world.bodies[i]
-    survey.fastest = max(survey.fastest, math.sqrt(body.speed_x * body.speed_x + body.speed_y * body.speed_y))
+    for i in range(len(state.robots)):
+        robot = state.robots[i]
+        memory = state.memories[i]
+        seen = state.seen[i]
+        if robot.alive == 0 and robot.dies_at == clock.cycle:
+            write_event(clock, state.events, EventKind.DIED, robot.identity, 0, 0, 0)
+        if memory.epoch != seen.epoch and robot.alive == 1:
+            seen.epoch = memory.epoch
+            write_event(clock, state.events, EventKind.PHASE, robot.identity, memory.mode, memory.epoch, 0)
+        if memory.arm != seen.arm:
+            write_event(clock, state.events, EventKind.ARM, robot.identity, memory.arm, seen.arm, 0)
+            seen.arm = memory.arm
+        role = role_of(robot, memory)
+        if role != seen.role:
+            write_event(clock, state.events, EventKind.ROLE, robot.identity, 0, role, seen.role)
+            seen.role = role
+        if state.commands[i].enabled[0] == 1:
+            size = state.commands[i].message.bytes
+            survey.bytes_most = max(survey.bytes_most, size)
+            survey.bytes_sum += size
+            survey.messages += 1
+        body = state.world.bodies[i]
+        survey.fastest = max(survey.fastest, body.speed_x * body.speed_x + body.speed_y * body.speed_y)
 
 
 @compiled
@@ -256,7 +254,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "bytes_most": int(survey.bytes_most),
         "bytes_mean": int(survey.bytes_sum) / max(1, int(survey.messages)),
         "flips_per_robot_minute": 60.0 * float(state.memories.flips.sum()) / (len(state.robots) * cycles * cycle_time),
-        "fastest_m_s": float(survey.fastest),
+        "fastest_m_s": math.sqrt(float(survey.fastest)),
         "died": int((events["kind"] == EventKind.DIED).sum()),
         "done": int(state.clock[0].finished),
     }

@@ -25,7 +25,9 @@ class SwarmTable(Table):
 
     robots: int = number(10, "1", "master and backbone together [files, Figs 4 and 5]", ge=2, le=PACKETS)
     start: Literal["files", "square"] = number(
-        "files", "1", "files: three robots at set places, the rest uniform [files, ST-44]; square: all uniform [notebook]"
+        "files",
+        "1",
+        "files: three robots at set places, the rest uniform [files, ST-44]; square: all uniform [notebook]",
     )
     half_side: float = number(1.0, "m", "of the square round the master in which they start [files]", gt=0)
     crowd: int = number(25, "1", "with more robots than these the square grows, so that they fit [choice]", ge=1)
@@ -69,22 +71,32 @@ class BehaviourTable(Table):
     close_spacing: float = number(1.2, "m", "delta of a robot without a reference [files]", gt=0)
     gather_spacing: float = number(0.9, "m", "delta of a rendez-vous [files, ST-31]", gt=0)
 
-    aligned_angle: float = number(math.radians(1.8), "rad", "aligned if nearer to the arm's line than this [files]", gt=0)
+    aligned_angle: float = number(
+        math.radians(1.8), "rad", "aligned if nearer to the arm's line than this [files]", gt=0
+    )
     approach_share: float = number(1.2, "1", "farther from the reference than so many delta: approach [files]", gt=0)
     approach_range: float = number(2.5, "m", "and farther than this, too [files]", gt=0)
     flee_range: float = number(0.25, "m", "nearer to the reference than this: flee [files]", ge=0)
-    spiral_most: float = number(math.radians(40.0), "rad", "a spiral opens by an angle from 0 to this [choice ST-40]", ge=0)
+    spiral_most: float = number(
+        math.radians(40.0), "rad", "a spiral opens by an angle from 0 to this [choice ST-40]", ge=0
+    )
     fresh_cycles: int = number(5, "cycles", "what was heard so long ago still counts [choice ST-34]", ge=0, le=50)
     close_cycles: int = number(50, "cycles", "a robot without a way to the master then turns back [choice 15]", ge=1)
-    reached_hops: int = number(60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1)
+    reached_hops: int = number(
+        60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
+    )
 
     arm_choice: Literal["draw", "quota", "blocks"] = number(
-        "draw", "1", "draw: by the tasks' distances [paper]; quota: and corrected by the master [ST-32]; blocks: by number"
+        "draw",
+        "1",
+        "draw: by the tasks' distances [paper]; quota: and corrected by the master [ST-32]; blocks: by number",
     )
     correction_cycles: int = number(50, "cycles", "between two corrections of the arms [choice ST-32]", ge=5)
     correction_limit: float = number(60.0, "s", "no corrections after so long in an eruption [choice ST-32]", ge=0)
 
-    safe_share: float = number(0.92, "1", "safe: no kept link gets longer than this share of r [choice ST-46]", gt=0, le=1)
+    safe_share: float = number(
+        0.92, "1", "safe: no kept link gets longer than this share of r [choice ST-46]", gt=0, le=1
+    )
     keep_cycles: int = number(20, "cycles", "safe: who was silent for longer is not kept any more [choice]", ge=1)
     anchor_margin: float = number(0.1, "m", "safe: an anchor is nearer to the master by at least this [choice]", ge=0)
 
@@ -128,7 +140,9 @@ WORDS = {
 class ObserverTable(Table):
     """What the observers look at, and how often."""
 
-    structure_every: float = number(1.0, "s", "between two looks at robots whose loss would part the swarm [ST-69]", gt=0)
+    structure_every: float = number(
+        1.0, "s", "between two looks at robots whose loss would part the swarm [ST-69]", gt=0
+    )
     spectrum_every: float = number(10.0, "s", "between two values of lambda_2 of the range graph [choice ST-69]", gt=0)
 
 

@@ -43,6 +43,7 @@ class CoverageState(NamedTuple):
     beacons: np.recarray  # BEACON (T,)
     sight: np.ndarray  # (N, N): 1 if within range and no body between
     heard: np.ndarray  # (N, N): cycle at which i last heard j
+    links: np.ndarray  # (N, N - 1): in which graphs body i and its n-th neighbour are linked, the observers'
     connections: np.recarray  # CONNECTION (3,), the observers'
     places: np.recarray  # PLACE (N,), the observers'
     axes: np.recarray  # AXIS (T,), the observers'
@@ -95,6 +96,7 @@ def begin(
         beacons=arena.beacons.copy(),
         sight=np.zeros((count, count), np.int64),
         heard=np.full((count, count), NEVER, np.int64),
+        links=np.zeros((count, max(1, count - 1)), np.int64),
         connections=make_connections(),
         places=records(PLACE, count),
         axes=make_axes(arena),

@@ -152,7 +152,9 @@ def intervene(state: Any, intervention: Intervention) -> None:
     """
     if intervention.deed in ("block", "unblock"):
         raise Impossible("there are no booths to block")
-    if intervention.deed == "move" and not (abs(intervention.x) <= 2 * HALF_SIDE and abs(intervention.y) <= 2 * HALF_SIDE):
+    if intervention.deed == "move" and not (
+        abs(intervention.x) <= 2 * HALF_SIDE and abs(intervention.y) <= 2 * HALF_SIDE
+    ):
         raise Impossible("that is outside the arena")
     touch_robot(state, intervention)
     look(state)
@@ -182,4 +184,3 @@ def tell(event: Any) -> str:
             return f"robot {robot} dies"
         case _:
             return "the master's programme is over"
-
