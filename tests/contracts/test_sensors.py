@@ -1,6 +1,7 @@
 """No dead sensor: whatever a controller may read, there is something to be read."""
 
 import numpy as np
+import pytest
 
 from contracts.states import leaves, recorded
 
@@ -35,5 +36,7 @@ def test_every_robot_has_its_own_identity_and_a_clock_that_runs(name):
 
 def test_no_two_robots_feel_the_same_noise(name):
     readings = seen(name, cycles=400, every=1)
+    if "proximity" not in readings.dtype.names:
+        pytest.skip(f"robots of {name} have no proximity sensors; their other sensors are noiseless as published")
     proximity = readings["proximity"].reshape(len(readings), -1)
     assert len(np.unique(proximity, axis=1).T) == proximity.shape[1]

@@ -14,12 +14,34 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
 def study(
-    name: Literal["sequencing", "partitioning"],
+    name: Literal["sequencing", "partitioning", "coverage"],
     /,
     *,
     figure: Literal[
-        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "all"
-    ] = "all",
+        "2",
+        "3",
+        "4",
+        "5",
+        "6",
+        "7",
+        "S15",
+        "S17",
+        "S18",
+        "S19",
+        "8",
+        "9",
+        "10",
+        "11",
+        "giving-up",
+        "table-1",
+        "arms",
+        "safe",
+        "drops",
+        "occlusion",
+        "laboratory",
+        "scale",
+        "all",
+    ] = "all",  # fmt: skip
     out: str = "formicarium-results",
     runs: Whole | None = None,
     setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),
@@ -44,14 +66,17 @@ def study(
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
         formicarium study partitioning --figure 7 --runs 3
+        formicarium study coverage --figure table-1 --runs 5
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
+        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011) or
+        coverage (Panerati et al. 2018).
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11 and giving-up of partitioning.
+        S19 of sequencing; 7 to 11 and giving-up of partitioning; 4, 5, table-1, arms, safe,
+        drops, occlusion, laboratory and scale of coverage.
     out
         Folder of the campaigns, figures, tables and report.
     runs
@@ -77,6 +102,8 @@ def study(
 
     if check is not None and check < 1:
         raise UserError(f"--check {check}: must be at least 1")
+    if name == "coverage":
+        return _coverage(figure, Path(out), runs, workers, collect_only, sources)
     if name == "partitioning":
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
     from formicarium.commands.published.answers import draw_study, run_study
@@ -103,3 +130,17 @@ def _partitioning(
         raise UserError("--sources: the study partitioning takes one")
     code = 0 if collect_only or sources else foraging.run_study(figure, out, runs, workers)
     return max(code, foraging.draw_study(figure, out, runs, sources[0] if sources else None))
+
+
+def _coverage(
+    figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
+) -> int:
+    from formicarium.commands import prominences
+    from formicarium.commands.errors import UserError
+
+    if figure not in prominences.DESIGNS:
+        raise UserError(f"--figure {figure}: the study coverage has {', '.join(prominences.DESIGNS)}")
+    if len(sources) > 1:
+        raise UserError("--sources: the study coverage takes one")
+    code = 0 if collect_only or sources else prominences.run_study(figure, out, runs, workers)
+    return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))

@@ -37,7 +37,17 @@ CONNECTION = np.dtype(
 )
 
 # Scratch and findings for each robot.
-PLACE = np.dtype([("reached", "i8", GRAPHS), ("queue", "i8"), ("mark", "i8")], align=True)
+PLACE = np.dtype(
+    [
+        ("reached", "i8", GRAPHS),  # 1 if the robot reaches the master
+        ("queue", "i8"),  # a list of its own, and so on: scratch
+        ("mark", "i8"),
+        ("order", "i8"),
+        ("low", "i8"),
+        ("next", "i8"),
+    ],
+    align=True,
+)
 
 
 @compiled
@@ -60,8 +70,8 @@ def find_links(state):
 
 
 @compiled
-def flood(neighbours, neighbour_count, links, places, graph, start, without, mark):
-    """Mark all that can be reached from body ``start`` but not through body ``without``; return how many they are."""
+def flood(neighbours, neighbour_count, links, places, graph, start, mark):
+    """Mark all that can be reached from body ``start``; return how many they are."""
     bit = 1 << graph
     places[0].queue = start
     places[start].mark = mark
@@ -72,7 +82,7 @@ def flood(neighbours, neighbour_count, links, places, graph, start, without, mar
         done += 1
         for n in range(neighbour_count[i]):
             j = neighbours[i, n].index
-            if links[i, n] & bit != 0 and places[j].mark != mark and j != without:
+            if links[i, n] & bit != 0 and places[j].mark != mark:
                 places[j].mark = mark
                 places[count].queue = j
                 count += 1
@@ -92,14 +102,14 @@ def see_connection(state, graph, master):
     connection.reached = 0
     connection.components = 0
     if state.robots[master].alive == 1:
-        connection.reached = flood(neighbours, counts, state.links, state.places, graph, master, -1, 1)
+        connection.reached = flood(neighbours, counts, state.links, state.places, graph, master, 1)
         connection.components = 1
     for i in range(len(state.robots)):
         state.places[i].reached[graph] = state.places[i].mark
     if connection.reached < living:
         for i in range(len(state.robots)):
             if state.places[i].mark == 0 and state.robots[i].alive == 1:
-                flood(neighbours, counts, state.links, state.places, graph, i, -1, 2)
+                flood(neighbours, counts, state.links, state.places, graph, i, 2)
                 connection.components += 1
     return note_loss(connection, state.clock[0].cycle)
 
@@ -123,21 +133,49 @@ def note_loss(connection, cycle):
 
 
 @compiled
-def count_cut_robots(state, graph):
-    """Return how many robots would part the others by their loss (articulation points); the graph must be whole."""
+def count_cut_robots(neighbours, neighbour_count, links, places, graph, start):
+    """Return how many robots would part the others by their loss; the graph, seen from body ``start``, must be whole.
+
+    Articulation points by depth-first search (Hopcroft and Tarjan 1973): a robot is one if a child in the tree has no
+    way back above it, and the root if it has two children.
+    """
+    bit = 1 << graph
+    for k in range(len(places)):
+        places[k].order = 0
+        places[k].next = 0
+        places[k].mark = 0
+    order = 1
+    depth = 1
+    root_children = 0
     count = 0
-    living = state.connections[graph].living
-    for i in range(len(state.robots)):
-        if state.robots[i].alive == 0 or living < 3:
+    places[0].queue = start
+    places[start].order = order
+    places[start].low = order
+    while depth > 0:
+        i = places[depth - 1].queue
+        n = places[i].next
+        if n < neighbour_count[i]:
+            places[i].next += 1
+            j = neighbours[i, n].index
+            if links[i, n] & bit == 0:
+                continue
+            if places[j].order > 0:
+                places[i].low = min(places[i].low, places[j].order)
+                continue
+            order += 1
+            places[j].order = order
+            places[j].low = order
+            places[depth].queue = j
+            depth += 1
             continue
-        start = 0
-        while state.robots[start].alive == 0 or start == i:
-            start += 1
-        for k in range(len(state.robots)):
-            state.places[k].mark = 0
-        reached = flood(
-            state.world.neighbours, state.world.neighbour_count, state.links, state.places, graph, start, i, 3
-        )
-        if reached < living - 1:
+        depth -= 1
+        if depth == 0:
+            break
+        above = places[depth - 1].queue
+        places[above].low = min(places[above].low, places[i].low)
+        if above == start:
+            root_children += 1
+        elif places[i].low >= places[above].order and places[above].mark == 0:
+            places[above].mark = 1
             count += 1
-    return count
+    return count + 1 if root_children > 1 else count

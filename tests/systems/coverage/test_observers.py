@@ -58,7 +58,9 @@ def test_cut_robots_are_those_whose_removal_parts_the_rest(seed):
     if connected_components(links)[0] > 1:
         pytest.skip("not connected")
     parting = sum(connected_components(np.delete(np.delete(links, k, 0), k, 1))[0] > 1 for k in range(12))
-    assert count_cut_robots(state, Graph.RANGE) == parting
+    world = state.world
+    found = count_cut_robots(world.neighbours, world.neighbour_count, state.links, state.places, Graph.RANGE, 0)
+    assert found == parting
 
 
 def test_a_loss_is_timed_to_the_cycle():

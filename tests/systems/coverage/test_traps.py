@@ -1,6 +1,7 @@
 """How a lazy build cheats, and the detector of each cheat (traps 1 to 5, 10, 11, 15 to 17, 25)."""
 
 import math
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -93,10 +94,8 @@ def test_when_messages_stop_robots_have_no_reference():
 
 def test_a_controller_calls_no_linear_algebra_and_no_graph_search():
     """Trap 5: what it may call is what its modules import; none of it is an observer or NumPy's."""
-    import formicarium.systems.coverage as coverage
-
     for name in ("behaviour", "listening", "eruption", "flocking", "forces", "keeping", "arms", "master", "messages"):
-        module = __import__(f"{coverage.__name__}.{name}", fromlist=[name])
+        module = import_module(f"formicarium.systems.coverage.{name}")
         assert "np" not in vars(module) and "scipy" not in vars(module)
 
 

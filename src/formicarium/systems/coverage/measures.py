@@ -199,7 +199,8 @@ def note_structure(state):
         for k in range(len(state.axes)):
             survey.midday_front = max(survey.midday_front, state.axes[k].front)
     if cycle % survey.structure_every == 0 and state.connections[0].reached == state.connections[0].living:
-        cut = count_cut_robots(state, Graph.RANGE)
+        neighbours, counts = state.world.neighbours, state.world.neighbour_count
+        cut = count_cut_robots(neighbours, counts, state.links, state.places, Graph.RANGE, survey.master)
         survey.looks += 1
         survey.cut_robots += cut
         survey.firm += 1 if cut == 0 else 0
