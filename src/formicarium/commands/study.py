@@ -10,6 +10,11 @@ from formicarium.commands.whole import Whole
 Switch = Annotated[bool, Parameter(negative="")]
 Several = Annotated[tuple[str, ...], Parameter(negative="")]
 
+Figure = Literal[
+    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up",
+    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "all",
+]  # fmt: skip
+
 SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
@@ -17,31 +22,7 @@ def study(
     name: Literal["sequencing", "partitioning", "coverage"],
     /,
     *,
-    figure: Literal[
-        "2",
-        "3",
-        "4",
-        "5",
-        "6",
-        "7",
-        "S15",
-        "S17",
-        "S18",
-        "S19",
-        "8",
-        "9",
-        "10",
-        "11",
-        "giving-up",
-        "table-1",
-        "arms",
-        "safe",
-        "drops",
-        "occlusion",
-        "laboratory",
-        "scale",
-        "all",
-    ] = "all",  # fmt: skip
+    figure: Figure = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
     setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),

@@ -234,9 +234,8 @@ def statements_drops(rows: Sequence[Row]) -> list[Statement]:
         texts = []
         for loss in levels(own, "footbot.radio_loss"):
             cell = picked(own, footbot__radio_loss=loss)
-            texts.append(
-                f"{100 * loss:.0f} %: {median(cell, 'length_m'):.1f} m, parted in {len(cell) - never_parted(cell)}"
-            )
+            parted = len(cell) - never_parted(cell)
+            texts.append(f"{100 * loss:.0f} %: {median(cell, 'length_m'):.1f} m, parted in {parted}")
         ten = picked(own, footbot__radio_loss=0.1)
         holds = bool(ten) and median(ten, "length_m") >= 0.9 * base
         found.append(
