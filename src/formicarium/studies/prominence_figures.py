@@ -204,6 +204,7 @@ def statements_safe(rows: Sequence[Row]) -> list[Statement]:
     worst = min(ratios, key=lambda cell: ratios[cell])
     parted = [row for row in faithful if row["losses_range"]]
     most = max((row["longest_loss_range_s"] for row in parted), default=0.0)
+    share_most = 100.0 * max(row["lost_share_range"] for row in faithful)
     return [
         Statement(
             "safe: the range graph is whole at every step in at least 99 % of the trials",
@@ -218,8 +219,8 @@ def statements_safe(rows: Sequence[Row]) -> list[Statement]:
         ),
         Statement(
             "the paper: the swarm never loses connectivity (faithful variant, the same noise)",
-            f"parted in {len(parted)} of {len(faithful)} runs, for {100 * max(r['lost_share_range'] for r in faithful):.1f}"
-            f" % of the time at most, {most:.1f} s at a time at most",
+            f"parted in {len(parted)} of {len(faithful)} runs, for {share_most:.1f} % of the time at most, {most:.1f} s at a "
+            "time at most",
             "holds" if not parted else "fails",
         ),
     ]
