@@ -219,8 +219,8 @@ def statements_safe(rows: Sequence[Row]) -> list[Statement]:
         ),
         Statement(
             "the paper: the swarm never loses connectivity (faithful variant, the same noise)",
-            f"parted in {len(parted)} of {len(faithful)} runs, for {share_most:.1f} % of the time at most, {most:.1f} s "
-            "at a time at most",
+            f"parted in {len(parted)} of {len(faithful)} runs, for {share_most:.1f} % of the time at most, {most:.1f} "
+            "s at a time at most",
             "holds" if not parted else "fails",
         ),
     ]
