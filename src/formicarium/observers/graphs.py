@@ -70,14 +70,14 @@ def find_links(state):
 
 
 @compiled
-def flood(neighbours, neighbour_count, links, places, graph, start, mark):
-    """Mark all that can be reached from body ``start``; return how many they are."""
+def flood(neighbours, neighbour_count, links, places, graph, start, mark, most):
+    """Mark all that can be reached from body ``start``; return how many they are; there are at most ``most``."""
     bit = 1 << graph
     places[0].queue = start
     places[start].mark = mark
     count = 1
     done = 0
-    while done < count:
+    while done < count and count < most:
         i = places[done].queue
         done += 1
         for n in range(neighbour_count[i]):
@@ -102,14 +102,14 @@ def see_connection(state, graph, master):
     connection.reached = 0
     connection.components = 0
     if state.robots[master].alive == 1:
-        connection.reached = flood(neighbours, counts, state.links, state.places, graph, master, 1)
+        connection.reached = flood(neighbours, counts, state.links, state.places, graph, master, 1, living)
         connection.components = 1
     for i in range(len(state.robots)):
         state.places[i].reached[graph] = state.places[i].mark
     if connection.reached < living:
         for i in range(len(state.robots)):
             if state.places[i].mark == 0 and state.robots[i].alive == 1:
-                flood(neighbours, counts, state.links, state.places, graph, i, 2)
+                flood(neighbours, counts, state.links, state.places, graph, i, 2, living)
                 connection.components += 1
     return note_loss(connection, state.clock[0].cycle)
 

@@ -14,7 +14,7 @@ from formicarium.systems.coverage.measures import EventKind, Role, outcome, role
 from formicarium.systems.coverage.memory import NEVER, Mode, Stage
 from formicarium.systems.coverage.parameters import CoverageParameters
 from formicarium.trial.film import NOWHERE, shoot_robots
-from formicarium.trial.record import Polygon, Scene
+from formicarium.trial.record import FLOOR, Polygon, Scene
 from formicarium.trial.showing import colour, degrees, fields, metres, side_by_side
 from formicarium.trial.situated import look
 from formicarium.trial.touching import touch_robot
@@ -41,7 +41,12 @@ def scene_of(parameters: CoverageParameters, state: Any) -> Scene:
     tasks = [Polygon(circle(b.x, b.y, reach), COLOURS[b.arm - 1]) for b in state.beacons]
     ranges = (("radio", parameters.footbot.radio_range), ("beacon", reach))
     return Scene(
-        (Polygon(corners, "wall"), *tasks), parameters.footbot.radius, ROLES, parameters.swarm.cycle_time, ranges
+        (Polygon(corners, f"{FLOOR}0.90"), *tasks),
+        parameters.footbot.radius,
+        ROLES,
+        parameters.swarm.cycle_time,
+        ranges,
+        number="its arm",
     )
 
 
@@ -55,6 +60,7 @@ def shoot(state, film):
         shot = film.shots[moment, i]
         shot.role = role_of(state.robots[i], memory)
         shot.carried = memory.arm
+        shot.colour = state.commands[i].colour
         shot.place = state.robots[i].identity
         shot.after = memory.parent if memory.linked == 1 and memory.parent > 0 else NOWHERE
         if state.robots[i].alive == 0:

@@ -11,7 +11,7 @@ import numpy as np
 from formicarium.systems.registry import System
 from formicarium.trial.film import frames_of, make_film
 from formicarium.trial.record import EVENT, Frames, Scene
-from formicarium.trial.showing import packets_of
+from formicarium.trial.showing import has_radio, packets_of
 from formicarium.trial.simulate import LOOK, drain
 from formicarium.trial.watching import Inspection, Intervention, Watching
 from formicarium.views.live.checking import Checks
@@ -81,6 +81,11 @@ class Session:
         self.snapshots = Snapshots(self.state)
         self._scrubbed = scrubbed
         self._arrive()
+
+    @property
+    def radio(self) -> bool:
+        """Whether robots hear packets that could be shown."""
+        return has_radio(self.state)
 
     @property
     def cycle(self) -> int:

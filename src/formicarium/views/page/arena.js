@@ -24,7 +24,11 @@ export class Arena {
     const [xs, ys] = [points.map((p) => p[0]), points.map((p) => p[1])];
     this.low = [Math.min(...xs), Math.min(...ys)];
     this.high = [Math.max(...xs), Math.max(...ys)];
-    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall");
+    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall" && !colour.startsWith("floor "));
+    this.names = this.devices.map(([, colour], k) => {
+      const alike = this.devices.flatMap(([, other], j) => (other === colour ? [j] : []));
+      return alike.length > 1 ? `${colour} ${alike.indexOf(k) + 1}` : colour;
+    });
     this.resize();
   }
 
@@ -46,6 +50,7 @@ export class Arena {
     this.middle ??= [(this.low[0] + this.high[0]) / 2, (this.low[1] + this.high[1]) / 2];
     this.ratio = ratio;
     this.ink = this.get("--ink");
+    this.floor = this.get("--floor");
     this.pale = this.get("--pale");
     this.accent = this.get("--accent");
     this.stamps.clear();
@@ -115,6 +120,11 @@ export class Arena {
     context.clearRect(0, 0, this.still.width, this.still.height);
     context.lineJoin = "round";
     for (const [points, colour] of this.scene.polygons) {
+      if (colour.startsWith("floor ")) {
+        this.outline(context, points);
+        context.fillStyle = this.shade(Number(colour.slice(6)));
+        context.fill();
+      }
       if (colour !== "wall") continue;
       this.outline(context, points);
       const whole = this.area(points) > 0.4 * (this.high[0] - this.low[0]) * (this.high[1] - this.low[1]);
@@ -134,6 +144,13 @@ export class Arena {
     context.stroke();
     context.font = `${12 * this.ratio}px system-ui, sans-serif`;
     context.fillText(`${length} m`, left, bottom - 6 * this.ratio);
+  }
+
+  // The colour of a floor, from black (0) to white (1).
+  shade(share) {
+    const [black, white] = [this.get("--black"), this.get("--white")].map((text) =>
+      [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
+    return `rgb(${black.map((value, k) => Math.round(value + share * (white[k] - value))).join()})`;
   }
 
   area(points) {
@@ -188,25 +205,30 @@ export class Arena {
 
   drawDevices(context, lit) {
     this.devices.forEach(([points, name], k) => {
-      const colour = this.colours[name] || name, around = this.hull(points);
+      const own = this.colours[name] || name, colour = lit[k] === 2 ? this.colours.red : own;
+      const around = this.hull(points);
       this.outline(context, around);
+      context.fillStyle = this.floor;
+      context.fill(); // a booth may stand in a wall
       context.fillStyle = colour;
       context.globalAlpha = lit[k] ? 0.45 : 0.05;
       context.fill();
       context.globalAlpha = 1;
       const bent = this.area(points) < 0.9 * this.area(around);
       this.outline(context, points);
-      context.strokeStyle = colour;
+      context.strokeStyle = context.fillStyle = own;
       context.lineWidth = 2 * this.ratio;
-      if (bent) context.fill();
+      if (bent || (name === "object" && lit[k])) context.fill();
       context.stroke();
+      if (name === "object") return;
       const middle = around.reduce(([a, b], [x, y]) => [a + x / around.length, b + y / around.length], [0, 0]);
       const [px, py] = this.at(...middle);
       context.fillStyle = lit[k] && !bent ? "#fff" : this.ink;
-      context.font = `700 ${Math.max(11 * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
+      const text = name[0].toUpperCase() + (this.names[k].split(" ")[1] ?? "");
+      context.font = `700 ${Math.max((13 - 2 * text.length) * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
       context.textAlign = "center";
       context.textBaseline = "middle";
-      context.fillText(name[0].toUpperCase(), px, py);
+      context.fillText(text, px, py);
       if (this.blocked.has(k)) {
         context.strokeStyle = this.ink;
         context.lineWidth = 3 * this.ratio;
@@ -278,10 +300,12 @@ export class Arena {
     if (this.layers.packets) this.drawPackets(context, frame.packets, x, y, seconds);
     const across = 3 * radius * this.scale;
     for (let i = 0; i < count; i++) {
-      const style = this.styles[role[i]], text = style.letter || (carried[i] ? String(carried[i]) : "");
+      const style = this.styles[role[i]], number = carried[i] && !this.scene.load ? String(carried[i]) : "";
+      const text = style.letter || number;
       const [px, py] = this.at(x[i], y[i]);
       context.drawImage(this.stamp(role[i], text), px - across / 2, py - across / 2, across, across);
     }
+    if (this.scene.load) this.drawLoads(context, x, y, heading, carried);
     const ways = [];
     for (let i = 0; i < count; i++) {
       const [dx, dy] = [Math.cos(heading[i]) * radius, Math.sin(heading[i]) * radius];
@@ -294,6 +318,20 @@ export class Arena {
     if (this.held) this.ring(context, this.held.x, this.held.y, radius, this.accent, 2);
     if (this.layers.names) this.drawNames(context, x, y);
     this.drawn += 1;
+  }
+
+  // What robots carry: a box at the back, so that letter and heading stay readable.
+  drawLoads(context, x, y, heading, carried) {
+    const radius = this.scene.radius, side = 0.9 * radius * this.scale;
+    context.fillStyle = this.colours.object;
+    context.strokeStyle = "#22262b";
+    context.lineWidth = this.ratio;
+    for (let i = 0; i < x.length; i++) {
+      if (!carried[i]) continue;
+      const [px, py] = this.at(x[i] - Math.cos(heading[i]) * radius, y[i] - Math.sin(heading[i]) * radius);
+      context.fillRect(px - side / 2, py - side / 2, side, side);
+      context.strokeRect(px - side / 2, py - side / 2, side, side);
+    }
   }
 
   drawTrails(context, role) {
@@ -326,7 +364,7 @@ export class Arena {
         context.font = `${11 * this.ratio}px system-ui, sans-serif`;
         context.textAlign = "center";
         context.textBaseline = side > 0 ? "bottom" : "top";
-        context.fillText(`${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
+        this.write(context, `${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
       });
     }
   }
@@ -367,7 +405,16 @@ export class Arena {
     context.textBaseline = "bottom";
     for (let i = 0; i < x.length; i++) {
       const [px, py] = this.at(x[i] + this.scene.radius, y[i] + this.scene.radius);
-      context.fillText(this.identity[i], px, py);
+      this.write(context, this.identity[i], px, py);
     }
+  }
+
+  // A text that stays readable on whatever it lies on.
+  write(context, text, px, py) {
+    context.strokeStyle = this.floor;
+    context.lineWidth = 3 * this.ratio;
+    context.lineJoin = "round";
+    context.strokeText(text, px, py);
+    context.fillText(text, px, py);
   }
 }

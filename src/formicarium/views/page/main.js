@@ -22,17 +22,20 @@ const told = {
     if (content.touchable) {
       find("devices").hidden = arena.devices.length === 0;
       find("booths").replaceChildren(...arena.devices.map(([, name], k) => {
+        if (name === "object") return element("span", { hidden: true });
         const square = element("i");
         square.style.background = content.colours[name] || name;
-        const button = element("button", { type: "button" }, square, element("span"));
+        const numbered = arena.names[k] !== name; // 14 booths have no room for whole words
+        const text = numbered ? name[0].toUpperCase() + arena.names[k].split(" ")[1] : name;
+        const button = element("button", { type: "button", ariaLabel: `Block booth ${arena.names[k]}` }, square, text);
         button.onclick = () => ask({ do: arena.blocked.has(k) ? "unblock" : "block", subject: k });
         return button;
       }));
       showBlocked();
     }
+    document.querySelector("[data-layer=packets]").hidden = !content.radio;
     if (!content.touchable) {
       find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
-      document.querySelector("[data-layer=packets]").hidden = true;
     }
     if (content.identity.length > 80) setLayer("trails", false);
   },
@@ -98,7 +101,7 @@ function say(place, text) {
 }
 
 function nameOf(deed, subject) {
-  return deed.endsWith("block") ? `the ${arena.devices[subject]?.[1]} booth` : `robot ${subject}`;
+  return deed.endsWith("block") ? `booth ${arena.names[subject]}` : `robot ${subject}`;
 }
 
 function ask(wish) {
@@ -123,7 +126,7 @@ function draw(time) {
   arena.stale = moving;
   const shown = blended(time);
   arena.draw(shown, now.frame, time / 1000);
-  showLegend(find("legend"), hello.scene.roles, hello.styles, now.frame.role);
+  showLegend(find("legend"), hello.scene, hello.styles, now.frame, hello.colours);
 }
 
 function list() {
@@ -164,7 +167,6 @@ function showBlocked() {
   }
   arena.blocked = blocked;
   [...find("booths").children].forEach((button, k) => {
-    say(button.lastChild, `${blocked.has(k) ? "Unblock" : "Block"} ${arena.devices[k][1]}`);
     button.setAttribute("aria-pressed", blocked.has(k));
   });
 }
@@ -269,6 +271,9 @@ canvas.onpointerup = () => {
   arena.held = pressed = null;
   arena.stale = true;
 };
+canvas.addEventListener("touchstart", (event) => { // or the page would be scrolled instead of the robot dragged
+  if (arena.robotAt(arena.metres(event.touches[0]), 2.5) >= 0) event.preventDefault();
+}, { passive: false });
 canvas.onwheel = (event) => {
   event.preventDefault();
   arena.magnify(Math.exp(-event.deltaY / 400), arena.metres(event));
