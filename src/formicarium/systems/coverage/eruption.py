@@ -66,13 +66,18 @@ def take_directions(reading, memory, table):
 
 @compiled
 def erupt(reading, memory, command, table, chart, footbot):
-    """Do what an eruption asks of a backbone robot."""
-    stop = chart.stop == 1 and memory.arm > 0
-    if stop and memory.arms[memory.arm - 1].reached > 0:
+    """Do what an eruption asks of a backbone robot.
+
+    Of an arm whose tip is at its task those stand still that are in line; the others go on until they are, or they
+    would stand in the way of other arms.
+    """
+    if memory.reference_place >= 0 and memory.arm > 0:
+        note_alignment(memory, table)
+    in_place = memory.aligned == 1 or reading.beacon == memory.arm or memory.stage == Stage.HOLDING
+    if chart.stop == 1 and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and in_place:
         memory.stage = Stage.HOLDING
         clear(command)
     elif memory.reference_place >= 0 and memory.arm > 0:
-        note_alignment(memory, table)
         if memory.aligned == 1:
             memory.stage = Stage.ALIGNED
             press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)

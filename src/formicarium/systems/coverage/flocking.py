@@ -15,7 +15,8 @@ def flock(reading, memory, command, table, limit):
 
     v_i = 1/|N| sum over j of (e x_ij + f v_j) - g sum over j with d_ij < q of x_ij / d_ij^2 + l x_iL, with x_ij the way
     to neighbour j in one's own frame, v_j its velocity carried over into it, and L the master if it is heard, else the
-    parent. Divided by |N| too, separation would be so weak in a crowd that robots touch and box the master in.
+    parent, as long as it is beyond q. Divided by |N| too, or with a pull from nearby, separation would be so weak in a
+    crowd that robots touch and box the master in.
 
     As printed: sum over j of (e x_ij + f v_j - g 1(d_ij < q) d_ij x_ij): separation vanishes as robots touch, and
     nothing pulls towards the master.
@@ -39,7 +40,7 @@ def flock(reading, memory, command, table, limit):
             direction = carried_over(math.atan2(packet.aside, packet.ahead), packet.bearing_of_me, packet.bearing)
             command.ahead += share * table.agreement * speed * math.cos(direction)
             command.aside += share * table.agreement * speed * math.sin(direction)
-    if leader >= 0 and not printed:
+    if leader >= 0 and not printed and reading.packets[leader].range > table.separation_range:
         wanted_from(command, reading.packets[leader], table.leading)
     cut(command, table, limit)
 

@@ -11,6 +11,9 @@ def run(state, cycles):
     """Advance a trial by so many control cycles."""
     clock = state.clock[0]
     for _ in range(cycles):
+        if clock.finished == 1:
+            return
+
         # Everybody hears what was said in the last cycle, with range and bearing.
         sense(state)
 
