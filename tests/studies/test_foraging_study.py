@@ -1,11 +1,15 @@
 """The partitioning study on made-up runs: its figures and what the statements say of them."""
 
+import itertools
+
+import numpy as np
 from matplotlib.image import imread
 
 from formicarium.statistics.means import mean_of, welch
+from formicarium.studies import foraging_anova
 from formicarium.studies.foraging import TIMES, cells_of, share_by_hour
 from formicarium.studies.foraging_claims import FAILS, HOLDS, OPEN, Runs, claims
-from formicarium.studies.foraging_figures import figure_7, figure_8, figure_9, figure_10
+from formicarium.studies.foraging_figures import figure_7, figure_8, figure_9, figure_10, figure_anova
 from formicarium.views.charts import draw_chart
 
 
@@ -67,9 +71,58 @@ def test_runs_with_phantoms_are_left_out_and_counted():
     assert (cell["objects_per_robot"], cell["objects_per_robot_all_runs"]) == (400.0, 250.0)
 
 
+def grid(alpha=10.0, turn=1.0, patience=-8.0, runs=3):
+    """Return runs of Table 1's grid: what alpha gives, how S turns with Pi, what K and O give, and noise of 2."""
+    draws, rows = np.random.default_rng(3), []
+    for levels in itertools.product(*(values for _, values in foraging_anova.GRID.values())):
+        time, a, s, k, o = levels
+        mean = 250.0 - 0.5 * time + alpha * a + turn * s * (1.0 - time / 100.0) + patience * (k + 0.3 * o)
+        for seed in range(runs):
+            objects = mean + draws.normal(0.0, 2.0)
+            rows.append(row("adaptive", time, objects, seed) | dict(zip(foraging_anova.GRID, levels, strict=True)))
+    return rows
+
+
+def verdicts_of(rows):
+    return {claim.number: (claim.verdict, claim.finding) for claim in claims(Runs([], anova=rows))}
+
+
+def test_the_effects_of_the_grid_are_found_with_their_size_and_sign():
+    rows = grid()
+    found = verdicts_of(rows)
+    assert found["AC-27"][0] == found["AC-28"][0] == HOLDS and found["AC-26"][0] == OPEN
+    effect = foraging_anova.difference(rows, "strategy.alpha", 1.0, 0.5, [(0.0, 1.0)])
+    assert effect.low < 5.0 < effect.high and effect.high - effect.low < 2.0
+    turn = foraging_anova.difference(rows, "strategy.steepness", 10.0, 0.5, [(0.0, 1.0), (200.0, -1.0)])
+    assert turn.low < 19.0 < turn.high
+    assert "best (-2.5, -9.0)" in found["AC-28"][1]
+
+
+def test_the_other_way_round_they_fail_and_without_a_sign_they_stay_open():
+    assert verdicts_of(grid(turn=-1.0))["AC-27"][0] == FAILS
+    assert verdicts_of(grid(turn=0.0))["AC-27"][0] == OPEN
+    assert verdicts_of(grid(patience=0.0))["AC-28"][0] == FAILS
+    without = [r for r in grid() if r["cache.interfacing_time"] != 200.0]
+    assert "runs are missing" in verdicts_of(without)["AC-27"][1]
+    assert verdicts_of([])["AC-28"][0] == OPEN
+
+
+def test_there_are_four_analyses_and_a_lost_run_makes_none_of_them_fail():
+    rows = [r | {"consistent": int(k % 50 != 0)} for k, r in enumerate(grid())]
+    studies = foraging_anova.analyses(rows)
+    assert [study.cells for study in studies] == [243, 81, 81, 81]
+    assert [len(study.analysis.terms) for study in studies] == [15, 10, 10, 10]
+    assert all(study.spread_p > 1e-4 and abs(study.skewness) < 0.5 for study in studies)
+    assert len(foraging_anova.table_of_terms(rows)) == 16 + 3 * 11
+    assert sum("###" in line for line in foraging_anova.section(rows)) == 4
+
+
 def test_every_figure_is_drawn(tmp_path):
     change = row("adaptive", 200.0, 1.0, **hours("1 " * 17, "3 " * 17)) | {"cache.switched_time": 0.0}
-    charts = [draw(performance()) for draw in (figure_7, figure_8, figure_9)] + [figure_10([change])]
+    charts = [draw(performance()) for draw in (figure_7, figure_8, figure_9)] + [
+        figure_10([change]),
+        figure_anova(grid()),
+    ]
     for chart in charts:
         assert imread(draw_chart(chart, tmp_path / f"{chart.name}.png")).std() > 0.01
 

@@ -13,6 +13,7 @@ from formicarium.commands.campaign.answers import write_csv
 from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
+from formicarium.studies import foraging_anova
 from formicarium.studies.foraging import Row, cells_of, consistent
 from formicarium.studies.foraging_claims import Runs, claims
 from formicarium.studies.foraging_figures import (
@@ -21,15 +22,16 @@ from formicarium.studies.foraging_figures import (
     figure_9,
     figure_10,
     figure_11,
+    figure_anova,
     figure_giving_up,
 )
 
 PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
 SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
-PATIENT = "partitioning-patient"
+PATIENT, ANOVA = "partitioning-patient", "partitioning-anova"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
-ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT)
+ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
 DESIGNS = {
     "7": (PERFORMANCE,),
     "8": (PERFORMANCE,),
@@ -37,6 +39,7 @@ DESIGNS = {
     "10": (ADAPTIVITY,),
     "11": (SCALABILITY,),
     "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
+    "anova": (ANOVA,),
     "all": ALL,
 }
 FIGURES = {
@@ -46,6 +49,7 @@ FIGURES = {
     "10": (figure_10, ADAPTIVITY),
     "11": (figure_11, SCALABILITY),
     "giving-up": (figure_giving_up, GIVING_UP),
+    "anova": (figure_anova, ANOVA),
 }
 
 
@@ -80,6 +84,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
             path = folder / f"{name}.csv"
             write_csv(table.from_rows(cells_of(found, _factors(studies[name]))), path)
             written.append(path)
+    if rows.get(ANOVA):
+        written += _write_anova(rows[ANOVA], folder)
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -94,7 +100,7 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
 
 def report(rows: dict[str, list[Row]]) -> str:
     """Return in Markdown what the paper says, or what follows from it, and what our runs say."""
-    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY))))
+    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))
     counts = ", ".join(f"{name} {len(r)} ({len(r) - len(consistent(r))} left out)" for name, r in rows.items())
     lines = ["# Task partitioning: the acceptance statements", "", f"Runs: {counts}.", ""]
     lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
@@ -109,7 +115,18 @@ def report(rows: dict[str, list[Row]]) -> str:
         lines += [
             f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found if c.number in OF_THE_READING
         ]
+    lines += foraging_anova.section(rows.get(ANOVA, []))
     return "\n".join(lines) + "\n"
+
+
+def _write_anova(rows: list[Row], folder: Path) -> list[Path]:
+    """Write the terms of the four analyses, if the runs are enough for them."""
+    try:
+        terms = foraging_anova.table_of_terms(rows)
+    except ValueError:
+        return []
+    write_csv(table.from_rows(terms), folder / "anova.csv")
+    return [folder / "anova.csv"]
 
 
 def _open(name: str, folder: Path, overrides: Overrides) -> Study:

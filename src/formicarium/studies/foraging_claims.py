@@ -7,6 +7,7 @@ import numpy as np
 from scipy import stats
 
 from formicarium.statistics.means import welch
+from formicarium.studies import foraging_anova
 from formicarium.studies.foraging import METHODS, TIMES, Row, column, consistent, picked, share_by_hour
 
 HOLDS, FAILS, OPEN = "holds", "fails", "not tested"
@@ -18,6 +19,7 @@ class Runs(NamedTuple):
     performance: Sequence[Row]
     adaptivity: Sequence[Row] = ()
     scalability: Sequence[Row] = ()
+    anova: Sequence[Row] = ()
 
 
 class Claim(NamedTuple):
@@ -298,10 +300,6 @@ def _ac_25(runs: Runs) -> tuple[str, bool | None]:
     return _above(runs, "never", 14)
 
 
-def _anova(_: Runs) -> tuple[str, bool | None]:
-    raise ValueError("the grid of Table 1")
-
-
 TESTS: list[tuple[str, str, Test]] = [
     ("AC-1", "never: t_NP in 320 to 480 s, the same at every Π (within 3 %)", _ac_1),
     ("AC-2", "always, Π 0: harvest and store in 45 to 150 s and equal within 5 %", _ac_2),
@@ -328,7 +326,11 @@ TESTS: list[tuple[str, str, Test]] = [
     ("AC-23", "from 8 to 30 robots adaptive declines less than always", _ac_23),
     ("AC-24", "adaptive better than always for N of 22 and more", _ac_24),
     ("AC-25", "adaptive better than never for N of 14 and more", _ac_25),
-    ("AC-26", "ANOVA: alpha (effect reported)", _anova),
-    ("AC-27", "ANOVA: sign of the interaction of S and Π", _anova),
-    ("AC-28", "ANOVA: K and O matter", _anova),
+    ("AC-26", "ANOVA: high alpha is best (effect reported)", lambda runs: foraging_anova.alpha_effect(runs.anova)),
+    (
+        "AC-27",
+        "ANOVA: a steep choice gains more at small Π",
+        lambda runs: foraging_anova.steepness_interaction(runs.anova),
+    ),
+    ("AC-28", "ANOVA: K and O matter (p < 0.001)", lambda runs: foraging_anova.giving_up_matters(runs.anova)),
 ]

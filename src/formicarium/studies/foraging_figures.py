@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from formicarium.statistics.means import mean_of
+from formicarium.studies import foraging_anova
 from formicarium.studies.chart import Chart, Panel, Spread, Stack, Trace
 from formicarium.studies.foraging import HOURS, METHODS, SWITCH, TIMES, Row, column, consistent, picked, share_by_hour
 
@@ -120,3 +121,21 @@ def figure_giving_up(rows: Sequence[Row]) -> Chart:
         traces.append(_trace(f"Π = {t:g} s", cells))
     across = "log10 of the period between two draws of P_g (s)"
     return Chart("figure-giving-up", "Giving up", _note(rows), [Panel("", across, OBJECTS, traces)])
+
+
+def figure_anova(rows: Sequence[Row]) -> Chart:
+    """Objects per robot against each parameter of Table 1 at every Π: main effects and interactions with Π."""
+    kept, panels = consistent(rows), []
+    for name, (letter, levels) in foraging_anova.GRID.items():
+        if name == foraging_anova.INTERFACING:
+            continue
+        traces = []
+        for t in foraging_anova.TIMES:
+            there = [x for x in levels if picked(kept, cache__interfacing_time=t, **{name.replace(".", "__"): x})]
+            means = [
+                foraging_anova.level_mean(kept, cache__interfacing_time=t, **{name.replace(".", "__"): x})
+                for x in there
+            ]
+            traces.append(Trace(f"Π = {t:g} s", there, means))
+        panels.append(Panel("", letter, OBJECTS, traces))
+    return Chart("figure-anova", "Parameters of the method (Table 1)", _note(rows), panels)
