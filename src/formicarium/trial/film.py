@@ -36,8 +36,8 @@ class Film(NamedTuple):
 
 
 def make_film(length: int, robots: int, scene: Scene) -> Film:
-    """Return an empty film of a scene; all its outlines but walls are devices."""
-    devices = sum(polygon.colour != "wall" for polygon in scene.polygons)
+    """Return an empty film of a scene."""
+    devices = sum(polygon.is_device for polygon in scene.polygons)
     return Film(
         np.zeros(length, "i8"), records(SHOT, (length, robots)), np.zeros((length, devices), "i8"), np.zeros(1, "i8")
     )
@@ -47,6 +47,15 @@ def make_film(length: int, robots: int, scene: Scene) -> Film:
 def shoot_robots(state, film):
     """Take the bodies and lights of all robots; role, carried and places are left to the system."""
     moment = film.taken[0]
+    shoot_bodies(state, film)
+    for i in range(len(state.robots)):
+        film.shots[moment, i].colour = state.commands[i].colour
+
+
+@compiled
+def shoot_bodies(state, film):
+    """Take the bodies of all robots; they are dark. Role, carried and places are left to the system."""
+    moment = film.taken[0]
     film.cycle[moment] = state.clock[0].cycle
     for i in range(len(state.robots)):
         body = state.world.bodies[i]
@@ -54,7 +63,7 @@ def shoot_robots(state, film):
         shot.x = body.x
         shot.y = body.y
         shot.heading = body.heading
-        shot.colour = state.commands[i].colour
+        shot.colour = 0
         shot.place = NOWHERE
         shot.after = NOWHERE
     film.taken[0] = moment + 1

@@ -19,11 +19,19 @@ EVENT = np.dtype(
 )
 
 
+FLOOR = "floor "  # colour of a patch of floor: this and its shade, 0 black .. 1 white
+
+
 class Polygon(NamedTuple):
     """A closed outline on the floor."""
 
     points: np.ndarray  # (K, 2) metres
-    colour: str  # a name that the views know ("wall", "red", "green", "blue", "orange")
+    colour: str  # a name that the views know ("wall", "red", "green", "blue", "orange", "floor 0.62")
+
+    @property
+    def is_device(self) -> bool:
+        """Tell whether it is something robots work with: neither a wall nor a patch of floor."""
+        return self.colour != "wall" and not self.colour.startswith(FLOOR)
 
 
 class Scene(NamedTuple):

@@ -21,6 +21,8 @@ def packets_of(state: Any) -> np.ndarray:
     A robot does not know who sent what it hears, but a viewer can tell: the sender is the robot that says just
     that in the direction from which it came.
     """
+    if "packets" not in (state.readings.dtype.names or ()):
+        return np.zeros((0, 2), "u2")  # robots without a radio
     readings, robots, bodies = (np.asarray(part) for part in (state.readings, state.robots, state.world.bodies))
     heard = np.arange(readings["packets"].shape[1]) < readings["packet_count"][:, None]
     heard &= robots["alive"][:, None] == 1

@@ -6,6 +6,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.text import Text
 from matplotlib.transforms import AffineDeltaTransform
 
+from formicarium.trial.record import FLOOR as FLOOR_SHADE
 from formicarium.trial.record import Frames, Scene
 from formicarium.views.chain import bands
 from formicarium.views.figure import new_figure
@@ -15,7 +16,6 @@ from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, PAPER, clock, c
 
 WIDTH, HEIGHT = 8.0, 6.4  # inches
 MARGIN = 0.06  # metres around the arena
-FLOOR_SHADE = "floor "  # colour of a patch of floor in a Scene: this and its shade, 0 black .. 1 white
 
 
 class Overhead:
@@ -117,8 +117,7 @@ class Overhead:
         self.axes.text(start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK)
 
     def _make_moving(self) -> None:
-        still = ("wall", FLOOR_SHADE)
-        devices = [polygon for polygon in self.scene.polygons if not polygon.colour.startswith(still)]
+        devices = [polygon for polygon in self.scene.polygons if polygon.is_device]
         self._booth_colours = np.array([_rgba(colour(device.colour)) for device in devices]).reshape(-1, 4)
         in_metres = AffineDeltaTransform(self.axes.transData)  # type: ignore[arg-type]
         outlines = [hull(device.points) for device in devices]

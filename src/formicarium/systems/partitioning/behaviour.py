@@ -12,6 +12,7 @@ from formicarium.systems.partitioning.choices import (
     close_timer,
     gives_up,
     note_deed,
+    note_stay,
     start_wait,
 )
 from formicarium.systems.partitioning.docking import ACKNOWLEDGED, LOST, begin_leaving, dock, leave, strayed
@@ -51,7 +52,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         drive(command, 0.0, table.turn_rate, epuck.wheel_distance)  # on a border between two shades: feel about
         return
     if asleep:
-        wake(reading, memory, strategy)
+        wake(reading, memory, strategy, chart)
     if memory.leaving > 0 or (is_walking(memory) and strayed(reading, memory, table)):
         leave(reading, memory, command, table, epuck)
     elif not escape(reading, memory, command, table, epuck):
@@ -66,7 +67,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.ENTER_DROP:
             enter_drop(reading, memory, command, table, epuck)
         elif memory.state == State.DROPPING:
-            dropping(reading, memory)
+            dropping(reading, memory, strategy, chart)
         elif memory.state == State.CORRIDOR_TO_NEST:
             corridor_to_nest(reading, memory, command, table, epuck)
         elif memory.state == State.GO_NEST:
@@ -80,7 +81,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.ENTER_PICK:
             enter_pick(reading, memory, command, table, epuck)
         elif memory.state == State.PICKING:
-            picking(reading, memory)
+            picking(reading, memory, strategy, chart)
         elif memory.state == State.CORRIDOR_TO_SOURCE:
             corridor_to_source(reading, memory, command, table, epuck)
 
@@ -107,11 +108,11 @@ def on_source_side(memory):
 
 
 @compiled
-def wake(reading, memory, strategy):
+def wake(reading, memory, strategy, chart):
     """Begin: in the nest area as if an object had just been stored, in the source area without a timer (TP-32)."""
     if on_nest_side(memory):
         note_deed(memory, Deed.BEGAN, reading.cycle)
-        choose(reading, memory, strategy)
+        choose(reading, memory, strategy, chart)
         enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
     else:
         enter(memory, State.GO_SOURCE, reading.cycle)
@@ -149,7 +150,7 @@ def harvested(reading, memory, strategy, chart):
     memory.loaded = 1
     close_timer(reading, memory, strategy, chart, False)
     note_deed(memory, Deed.HARVESTED, reading.cycle)
-    choose(reading, memory, strategy)
+    choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_DROP if memory.label == Label.CACHE else State.CORRIDOR_TO_NEST, reading.cycle)
     begin_leaving(memory, reading.cycle, FORWARD)
 
@@ -168,9 +169,10 @@ def enter_drop(reading, memory, command, table, epuck):
 
 
 @compiled
-def dropping(reading, memory):
+def dropping(reading, memory, strategy, chart):
     """Stay while the gripper is busy, then go for the next object: no decision here."""
     if reading.busy == 0 and reading.cycle > memory.since:
+        note_stay(reading, memory, strategy, chart)
         enter(memory, State.GO_SOURCE, reading.cycle)
         begin_leaving(memory, reading.cycle, BACK)
 
@@ -216,7 +218,7 @@ def stored(reading, memory, strategy, chart):
     memory.loaded = 0
     close_timer(reading, memory, strategy, chart, True)
     note_deed(memory, Deed.STORED, reading.cycle)
-    choose(reading, memory, strategy)
+    choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
     begin_leaving(memory, reading.cycle, BACK)
 
@@ -235,9 +237,10 @@ def enter_pick(reading, memory, command, table, epuck):
 
 
 @compiled
-def picking(reading, memory):
+def picking(reading, memory, strategy, chart):
     """Stay while the gripper is busy, then carry the object to the nest: no decision here."""
     if reading.busy == 0 and reading.cycle > memory.since:
+        note_stay(reading, memory, strategy, chart)
         enter(memory, State.GO_NEST, reading.cycle)
         begin_leaving(memory, reading.cycle, FORWARD)
 

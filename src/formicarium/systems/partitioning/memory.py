@@ -83,6 +83,8 @@ MEMORY = np.dtype(
         ("harvest", "f8"),  # s, estimates of phi_1,
         ("store", "f8"),  # s, phi_2
         ("whole", "f8"),  # s, and of the whole task
+        ("measured_at", "i8", 4),  # cycle of each Estimate's last measurement of its own, NEVER if none
+        ("stay", "f8"),  # s, its stays in cache booths, averaged like an estimate; negative: none yet
         ("timer", "i8"),  # cycle of the last harvest or store, NEVER if none
         ("label", "i8"),
         ("waiting", "i8"),  # 1 while it waits at the cache

@@ -131,6 +131,22 @@ class StrategyTable(Table):
     )
     least_probability: float = number(1e-12, "1", "P_p is kept so far from 0 and 1 [choice TP-12, U22]", ge=0, le=0.1)
 
+    # Beyond the paper; all off.
+    social_weight: float = number(
+        0.0, "1", "most that a neighbour's fresh time counts against one's own; 0: nobody talks [TP-O3]", ge=0, le=1
+    )
+    social_range: float = number(0.5, "m", "robots in line of sight hear each other so far [TP-O3]", gt=0, le=1)
+    social_period: float = number(10.0, "s", "between two utterances of a robot [choice]", ge=0.1, le=10000)
+    social_age: float = number(600.0, "s", "a time so old counts half of a fresh one [choice]", gt=0)
+    steepness_most: float = number(
+        0.0, "1", "S = this / (1 + own stay in cache booths / steepness_time); 0: S is fixed; 10 [TP-O4]", ge=0, le=1000
+    )
+    steepness_time: float = number(50.0, "s", "stay at which S is half of steepness_most [TP-O4]", gt=0)
+    exploration_age: float = number(
+        0.0, "s", "a time measured longer ago makes a robot try the way that measures it; 0: never [TP-O5]", ge=0
+    )
+    exploration_share: float = number(0.2, "1", "with at least this probability [choice]", ge=0, le=0.5)
+
     @classmethod
     def layout(cls) -> np.dtype:
         """Return the layout with method and mode as numbers."""

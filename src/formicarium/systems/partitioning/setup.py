@@ -11,7 +11,7 @@ from formicarium.devices.depot import DEPOT, INTERFACING
 from formicarium.observers.objects import VISIT
 from formicarium.physics.records import records
 from formicarium.physics.world import World, make_world
-from formicarium.robots.forager import COMMAND, GRIP, LAMP, NICHE_LIGHT, READING
+from formicarium.robots.forager import COMMAND, GRIP, LAMP, NICHE_LIGHT, READING, VOICE
 from formicarium.robots.records import Colour
 from formicarium.streams import generator, stream, uniform
 from formicarium.systems.partitioning.arena import Arena, Box, make_arena
@@ -38,6 +38,7 @@ class PartitioningState(NamedTuple):
     memories: np.recarray  # MEMORY (N,)
     commands: np.recarray  # COMMAND (N,)
     grips: np.recarray  # GRIP (N,)
+    voices: np.recarray  # VOICE (N,)
     depots: np.recarray  # DEPOT (B,)
     pairs: np.recarray  # PAIR (c,)
     lights: np.recarray  # NICHE_LIGHT (B,), one a booth
@@ -93,6 +94,7 @@ def begin(
         memories=make_memories(crew.robots, p, seed),
         commands=records(COMMAND, count),
         grips=records(GRIP, count),
+        voices=records(VOICE, count),
         depots=depots,
         pairs=records(PAIR, p.arena.cache_pairs),
         lights=lights,
@@ -161,6 +163,8 @@ def make_memories(robots: np.recarray, p: PartitioningParameters, seed: int) -> 
         memory.whole = 2.0 * (low + span * uniform(stream(seed, "estimate of the whole", key)))
         memory.look_side = 1.0
         memory.ground = -1
+        memory.measured_at[:] = NEVER
+        memory.stay = -1.0
         for name in ("timer", "deed_cycle", "path_seen", "swerve_until", "escape_until", "roam_until", "target_seen"):
             memory[name] = NEVER
     return memories

@@ -11,9 +11,11 @@ from formicarium.systems.partitioning.loop import run
 from formicarium.systems.partitioning.measures import EventKind, outcome, role_of
 from formicarium.systems.partitioning.parameters import PartitioningParameters, partitioning_parameters
 from formicarium.systems.partitioning.setup import PartitioningState, begin
+from formicarium.systems.partitioning.watching import inspect, intervene, roll, shoot, tell
 from formicarium.systems.registry import System, Targets
 from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.simulate import Album, simulate
+from formicarium.trial.watching import Watching
 
 ROLES = ("harvest", "cache", "corridor", "store", "dead")  # as frames number them
 DEAD = 4
@@ -40,7 +42,18 @@ def scene_of(parameters: PartitioningParameters, state: PartitioningState) -> Sc
     for k, place in enumerate(arena.places):
         own = arena.segments[arena.segments.group == k + 1]
         polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), SHOWN[place]))
-    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.swarm.cycle_time)
+    ranges = (("camera", parameters.sight.range),)
+    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.swarm.cycle_time, ranges)
+
+
+def outcome_row(parameters: PartitioningParameters, state: PartitioningState, events: np.ndarray) -> dict[str, Any]:
+    """Return the row of a finished trial."""
+    row: dict[str, Any] = {
+        "robots": parameters.swarm.robots,
+        "method": parameters.strategy.method,
+        "interfacing_time_s": parameters.cache.interfacing_time,
+    }
+    return row | outcome(state, events)
 
 
 def run_trial(
@@ -63,13 +76,8 @@ def run_trial(
     album = Album(state, frame_roles, lambda state: state.memories.loaded)
     take = None if frames_every is None else lambda state: album.take(state, lit(state))
     events = simulate(run, state, every=every, take=take, watch=watch)
-    row: dict[str, Any] = {
-        "robots": parameters.swarm.robots,
-        "method": parameters.strategy.method,
-        "interfacing_time_s": parameters.cache.interfacing_time,
-    }
     frames: Frames | None = album.frames() if frames_every is not None else None
-    return Trial(row | outcome(state, events), events, frames, scene_of(parameters, state))
+    return Trial(outcome_row(parameters, state, events), events, frames, scene_of(parameters, state))
 
 
 def timeline(trial: Trial) -> Timeline:
@@ -108,4 +116,5 @@ PARTITIONING = System(
     begin=begin,
     advance=run,
     roles=frame_roles,
+    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
 )

@@ -1,5 +1,6 @@
 // The arena from above on a canvas: what does not move is drawn once, robots are stamps that are made once.
 
+const FLOOR = "floor "; // colour of a patch of floor: this and its shade, 0 black .. 1 white
 const TRAIL = 150; // cycles that a trail lasts
 const MOST_PLACES = 80; // of one trail
 const STAMP_SCALES = [24, 40, 64, 96, 160]; // pixels across a stamped robot
@@ -24,7 +25,7 @@ export class Arena {
     const [xs, ys] = [points.map((p) => p[0]), points.map((p) => p[1])];
     this.low = [Math.min(...xs), Math.min(...ys)];
     this.high = [Math.max(...xs), Math.max(...ys)];
-    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall");
+    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall" && !colour.startsWith(FLOOR));
     this.resize();
   }
 
@@ -115,6 +116,12 @@ export class Arena {
     context.clearRect(0, 0, this.still.width, this.still.height);
     context.lineJoin = "round";
     for (const [points, colour] of this.scene.polygons) {
+      if (colour.startsWith(FLOOR)) {
+        const grey = Math.round(255 * (0.55 + 0.45 * Number(colour.slice(FLOOR.length)))); // paled, as in pictures
+        this.outline(context, points);
+        context.fillStyle = `rgb(${grey}, ${grey}, ${grey})`;
+        context.fill();
+      }
       if (colour !== "wall") continue;
       this.outline(context, points);
       const whole = this.area(points) > 0.4 * (this.high[0] - this.low[0]) * (this.high[1] - this.low[1]);
