@@ -49,4 +49,11 @@ def test_a_figure_is_run_and_drawn(tmp_path, capsys):
 
 def test_a_figure_of_the_other_study_is_refused(capsys):
     assert exit_code(["study", "partitioning", "--figure", "S18"]) == 2
-    assert "the study partitioning has 7, 8" in capsys.readouterr().err
+    assert "the study partitioning has 3, 4" in capsys.readouterr().err
+
+
+def test_figures_of_the_implementation_need_no_run(tmp_path, capsys):
+    for figure in ("3", "4", "5", "6"):
+        assert exit_code(["study", "partitioning", "--figure", figure, "--out", "here"]) == 0
+        assert f"figure-{figure}.png" in capsys.readouterr().out
+    assert sorted(path.name for path in (tmp_path / "here").iterdir()) == [f"figure-{k}.png" for k in (3, 4, 5, 6)]

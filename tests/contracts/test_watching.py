@@ -56,7 +56,7 @@ def test_a_frame_shows_what_the_state_holds(system, parameters):
     assert frame.cycle.tolist() == [3000] and frame.identity.tolist() == sorted(state.robots.identity)
     assert np.array_equal(frame.x[0], state.world.bodies.x[order].astype("f4"))
     assert np.array_equal(frame.role[0], system.roles(state)[order])
-    assert frame.lit.shape[1] == sum(polygon.colour != "wall" for polygon in session.scene.polygons)
+    assert frame.lit.shape[1] == sum(polygon.is_device for polygon in session.scene.polygons)
 
 
 def test_going_back_gives_the_state_that_was(system, parameters):
@@ -73,6 +73,9 @@ def test_going_back_gives_the_state_that_was(system, parameters):
 def test_what_a_robot_hears_came_from_whom_the_viewer_says(system, parameters):
     """Identities in the packets, where the system puts them first, are those of the senders that are drawn."""
     session = Session(system, parameters, 8)
+    if "packets" not in session.state.readings.dtype.names:
+        assert session.packets().shape == (0, 2)
+        pytest.skip(f"robots of {system.name} have no radio")
     right = total = 0
     for _ in range(100):
         session.advance(20)
@@ -117,7 +120,8 @@ def test_the_dead_neither_move_nor_speak(system, parameters):
     session.intervene("kill", int(session.identity[3]))
     session.advance(1)
     i = int(np.nonzero(session.state.robots["identity"] == session.identity[3])[0][0])
-    assert session.state.robots["alive"][i] == 0 and session.state.commands["enabled"][i].sum() == 0
+    assert session.state.robots["alive"][i] == 0
+    assert "enabled" not in session.state.commands.dtype.names or session.state.commands["enabled"][i].sum() == 0
     steps = session.state.robots["left_path"][i]
     session.advance(600)
     assert abs(session.state.robots["left_path"][i] - steps) < 1e-3

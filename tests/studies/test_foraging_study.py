@@ -17,7 +17,7 @@ def row(method, time, objects, seed=1, **fields):
     whole, parts = 400.0, 60.0 + 3.0 * time
     made = {
         "method": method, "interfacing_time_s": time, "robots": 10, "duration_s": 60000.0, "consistent": 1,
-        "objects_per_robot": objects, "seed": seed, "phantoms": 0, "lost": 0, "escapes": 0,
+        "objects_per_robot": objects, "seed": seed, "phantoms": 0, "lost": 0, "escapes": 0, "least_share": 0.9,
         "share_used": {"never": 0.0, "always": 1.0, "adaptive": 0.8 - time / 400}[method],
         "share_gave_up": 0.0,
         "share_corridor": {"never": 1.0, "always": 0.0, "adaptive": 0.2 + time / 400}[method],
@@ -25,7 +25,7 @@ def row(method, time, objects, seed=1, **fields):
         "harvest_sd_s": parts, "store_sd_s": parts,
     }  # fmt: skip
     for name in ("whole", "harvest", "store"):
-        made |= {f"{name}_p{share}_s": 50.0 + share for share in (5, 25, 50, 75, 95)}
+        made |= {f"{name}_p{share}_s": 50.0 + share for share in (5, 25, 50, 75, 95)} | {f"{name}_measured": 40}
     return made | fields
 
 
@@ -115,6 +115,86 @@ def test_there_are_four_analyses_and_a_lost_run_makes_none_of_them_fail():
     assert all(study.spread_p > 1e-4 and abs(study.skewness) < 0.5 for study in studies)
     assert len(foraging_anova.table_of_terms(rows)) == 16 + 3 * 11
     assert sum("###" in line for line in foraging_anova.section(rows)) == 4
+
+
+SIZES = (4, 6, 8, 10, 14, 18, 22, 26, 30)
+
+
+def crowd(shape, runs=4, noise=1.0, **fields):
+    """Return runs of every size; ``shape`` (method, size) is the mean."""
+    draws, rows = np.random.default_rng(5), []
+    for method, time, n in itertools.product(("never", "always", "adaptive"), (0.0, 25.0), SIZES):
+        for seed in range(runs):
+            made = row(method, time, shape(method, n) + draws.normal(0.0, noise), seed)
+            rows.append(made | {"robots": n} | fields)
+    return rows
+
+
+def as_in_the_paper(method, n):
+    if method == "never":
+        return 200.0 - 3.0 * n
+    return 400.0 - (8.0 if method == "adaptive" else 17.0) * abs(n - 8)
+
+
+def of_sizes(rows):
+    return {claim.number: (claim.verdict, claim.finding) for claim in claims(Runs([], scalability=rows))}
+
+
+def test_statements_on_sizes_hold_on_the_papers_curves_and_fail_on_others():
+    numbers = ("AC-21", "AC-22", "AC-23", "AC-24", "AC-25", "T27")
+    assert [of_sizes(crowd(as_in_the_paper))[number][0] for number in numbers] == [HOLDS] * 6
+    turned = of_sizes(crowd(lambda method, n: 500.0 - as_in_the_paper(method, n), least_share=0.1))
+    assert [turned[number][0] for number in numbers] == [FAILS] * 6
+
+
+def test_a_rise_that_may_be_chance_neither_holds_nor_fails():
+    single = crowd(lambda method, n: as_in_the_paper(method, n) + (8.0 if n == 6 else 0.0), runs=1, noise=0.0)
+    verdict, finding = of_sizes(single)["AC-21"]
+    assert verdict == OPEN and "the rise from 4 to 6 may be chance" in finding
+    assert of_sizes(crowd(as_in_the_paper, runs=1, noise=0.0))["AC-21"][0] == HOLDS
+    better = crowd(lambda method, n: as_in_the_paper(method, n) + (30.0 if n == 6 else 0.0), runs=1, noise=0.0)
+    assert of_sizes(better)["AC-22"][0] == OPEN
+    assert of_sizes([r | {"seed": k} for r in better for k in (1, 2)])["AC-22"][0] == FAILS
+
+
+def test_where_no_run_of_a_crowd_is_clean_all_count_and_the_report_says_so():
+    rows = crowd(as_in_the_paper)
+    dirty = [r | {"consistent": int(not (r["method"] == "always" and r["robots"] >= 22))} for r in rows]
+    found = of_sizes(dirty)
+    assert found["AC-23"][0] == found["AC-24"][0] == HOLDS
+    assert "all count: always 22, always 26, always 30" in found["AC-24"][1]
+
+
+def test_statements_wait_for_the_runs_they_need():
+    small = [r for r in crowd(as_in_the_paper) if r["robots"] <= 10]
+    found = of_sizes(small)
+    assert "runs are missing" in found["AC-23"][1] and "runs are missing" in found["AC-24"][1]
+    assert found["AC-21"][0] == HOLDS
+
+
+def test_adaptive_must_surely_beat_the_worse_reference_but_near_the_crossing():
+    """AC-9: at 25 s the references are level, so nothing is asked there."""
+    low = [r | {"objects_per_robot": 140.0} if r["method"] == "adaptive" and r["interfacing_time_s"] == 25.0 else r
+           for r in performance()]  # fmt: skip
+    level = [r | {"objects_per_robot": 155.0 + r["seed"]} if r["method"] == "always" and r["interfacing_time_s"] == 25.0
+             else r for r in low]  # fmt: skip
+    found = {claim.number: claim for claim in claims(Runs(level))}
+    assert found["AC-9"].verdict == HOLDS and "not surely above the worse one at Π 25" in found["AC-9"].finding
+    lost = [r | {"objects_per_robot": 10.0 + r["seed"]} if r["method"] == "adaptive" else r for r in performance()]
+    assert {c.number: c.verdict for c in claims(Runs(lost))}["AC-9"] == FAILS
+
+
+def steady(time, share):
+    used = f"{round(10 * share)} " * 17
+    return row("adaptive", time, 1.0, **hours(used, f"{10 - round(10 * share)} " * 17)) | {"cache.switched_time": time}
+
+
+def test_the_control_without_a_change_shows_none():
+    rows = [steady(200.0, 0.1), steady(0.0, 0.9)]
+    found = {claim.number: claim for claim in claims(Runs([], rows))}
+    assert found["AC-20"].verdict == HOLDS and "runs are missing" in found["AC-17"].finding
+    turned = steady(0.0, 0.9) | hours("9 " * 9 + "1 " * 8, "1 " * 9 + "9 " * 8)
+    assert {c.number: c.verdict for c in claims(Runs([], [rows[0], turned]))}["AC-20"] == FAILS
 
 
 def test_every_figure_is_drawn(tmp_path):

@@ -32,7 +32,9 @@ PATIENT, ANOVA = "partitioning-patient", "partitioning-anova"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
 ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
+DRAWN = ("3", "4", "5", "6")  # from the implementation, without a run
 DESIGNS = {
+    **dict.fromkeys(DRAWN, ()),
     "7": (PERFORMANCE,),
     "8": (PERFORMANCE,),
     "9": (PERFORMANCE,),
@@ -56,7 +58,7 @@ FIGURES = {
 def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
     """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
     studies = [_open(name, folder, Overrides(runs)) for name in DESIGNS[figure]]
-    return max(perform(study, Request(workers=workers)) for study in studies)
+    return max((perform(study, Request(workers=workers)) for study in studies), default=0)
 
 
 def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
@@ -68,13 +70,16 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     """
     from formicarium.views.charts import draw_chart
 
+    if figure in DRAWN:
+        Console().print(f"results   {draw_implementation(figure, folder)}", highlight=False, soft_wrap=True)
+        return 0
     studies = {name: _open(name, folder, Overrides(runs, sources=sources)) for name in DESIGNS[figure]}
     rows = {name: _rows(study) for name, study in studies.items()}
     there = sum(map(len, rows.values()))
     if not there:
         raise UserError(f"{folder}: no run of this study is there in {' or '.join(studies)}. Run it first.")
     wanted = list(FIGURES) if figure == "all" else [figure]
-    written = []
+    written = [draw_implementation(name, folder) for name in DRAWN] if figure == "all" else []
     for name in wanted:
         draw, campaign = FIGURES[name]
         if rows[campaign]:
@@ -96,6 +101,18 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     for path in written:
         screen.print(f"results   {path}", highlight=False, soft_wrap=True)
     return 0 if there == total else 1
+
+
+def draw_implementation(figure: str, folder: Path) -> Path:
+    """Draw the state machine, an array of booths, a pair of the cache or the arena; return the path."""
+    from formicarium.studies.foraging_machine import machine
+    from formicarium.studies.foraging_plans import figure_4, figure_5, figure_6
+    from formicarium.views.diagrams import draw_machine, draw_plans
+
+    path = folder / f"figure-{figure}.png"
+    if figure == "3":
+        return draw_machine(machine(), path)
+    return draw_plans({"4": figure_4, "5": figure_5, "6": figure_6}[figure](), path)
 
 
 def report(rows: dict[str, list[Row]]) -> str:

@@ -51,7 +51,7 @@ def study(
         The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11, giving-up and anova (Table 1) of partitioning.
+        S19 of sequencing; 3 to 11, giving-up and anova (Table 1) of partitioning.
     out
         Folder of the campaigns, figures, tables and report.
     runs

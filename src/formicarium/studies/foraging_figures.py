@@ -5,10 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from formicarium.statistics.means import mean_of
+from formicarium.statistics.pooling import pooled_percentiles
 from formicarium.studies import foraging_anova
 from formicarium.studies.chart import Chart, Panel, Spread, Stack, Trace
 from formicarium.studies.foraging import HOURS, METHODS, SWITCH, TIMES, Row, column, consistent, picked, share_by_hour
 
+SHARES = (5, 25, 50, 75, 95)  # percentiles that a row has of each measured time
 OBJECTS = "objects per robot"
 INTERFACING = "interfacing time Π (s)"
 
@@ -49,7 +51,7 @@ def figure_8(rows: Sequence[Row]) -> Chart:
 
 
 def figure_9(rows: Sequence[Row]) -> Chart:
-    """Measured times, not estimates: medians over runs of each run's percentiles."""
+    """Measured times, not estimates, of all runs of a cell in one heap."""
     panels = []
     for t in (0.0, 25.0, 50.0):
         spreads = []
@@ -57,10 +59,12 @@ def figure_9(rows: Sequence[Row]) -> Chart:
             cell = consistent(picked(rows, method=method, interfacing_time_s=t))
             for letter, name in (("n", "whole"), ("h", "harvest"), ("s", "store")):
                 if letter in names and cell:
-                    values = [column(cell, f"{name}_p{share}_s") for share in (5, 25, 50, 75, 95)]
-                    if all(values):
+                    timed = [row for row in cell if row[f"{name}_measured"]]
+                    if timed:
+                        found = [[row[f"{name}_p{share}_s"] for share in SHARES] for row in timed]
+                        values = pooled_percentiles(SHARES, found, [row[f"{name}_measured"] for row in timed])
                         words = {"n": "t_NP", "h": "harvest", "s": "store"}[letter]
-                        spreads.append(Spread(f"{method}\n{words}", [float(np.median(v)) for v in values]))
+                        spreads.append(Spread(f"{method}\n{words}", values))
         panels.append(Panel(f"Π = {t:g} s", "", "time (s): 5, 25, 50, 75, 95 %", spreads=spreads))
     return Chart("figure-9", "Measured times", _note(rows), panels)
 

@@ -77,7 +77,16 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
     def named(names: Any) -> Any:
         return lambda value: names(int(value)).name.lower().replace("_", " ")
 
-    moments: tuple[str, ...] = ("since", "timer", "wait_began", "draw_due", "deed_cycle", "path_seen", "swerve_until", "escape_until")
+    moments: tuple[str, ...] = (
+        "since",
+        "timer",
+        "wait_began",
+        "draw_due",
+        "deed_cycle",
+        "path_seen",
+        "swerve_until",
+        "escape_until",
+    )
     moments += ("target_seen", "leaving_since", "roam_until")
     times = ("harvest", "store", "whole", "measured", "stay")
     return {
