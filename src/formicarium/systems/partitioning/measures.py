@@ -29,6 +29,7 @@ class EventKind(IntEnum):
     DIED = 11
     PROBABILITY = 12  # on request, with each decision; value: P_p in millionths; detail: Deed that led to it
     ROLE = 13  # value: new Role; detail: old one
+    ESTIMATES = 14  # on request, with each decision; subject: of harvesting, value: of storing, detail: of the whole
 
 
 class Role(IntEnum):
@@ -122,6 +123,9 @@ def note_robot(state, i):
     if state.swarm[0].log_decisions == 1:
         millionths = int(1e6 * memory.probability + 0.5)
         write_event(clock, events, EventKind.PROBABILITY, who, memory.updated, millionths, memory.deed)
+        harvest, store = int(memory.harvest / cycle_time + 0.5), int(memory.store / cycle_time + 0.5)
+        whole = int(memory.whole / cycle_time + 0.5)
+        write_event(clock, events, EventKind.ESTIMATES, who, harvest, store, whole)
 
 
 @compiled

@@ -149,5 +149,7 @@ def tell(event: Any) -> str:
             return f"{who} dies"
         case EventKind.PROBABILITY:
             return f"{who}: probability {value / 1e6:.6f} on having {Deed(detail).name.lower().replace('_', ' ')}"
+        case EventKind.ESTIMATES:
+            return f"{who} reckons {subject}, {value} and {detail} cycles to harvest, to store and for the whole"
         case _:
             return f"{who} turns to the {Role(value).name.lower()}"
