@@ -3,6 +3,7 @@
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
 from formicarium.campaigns import table
@@ -13,7 +14,8 @@ from formicarium.commands.campaign.answers import write_csv
 from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
-from formicarium.studies import foraging_anova
+from formicarium.commands.tables import events_of
+from formicarium.studies import foraging_anova, foraging_options
 from formicarium.studies.foraging import Row, cells_of, consistent
 from formicarium.studies.foraging_claims import Runs, claims
 from formicarium.studies.foraging_figures import (
@@ -25,10 +27,11 @@ from formicarium.studies.foraging_figures import (
     figure_anova,
     figure_giving_up,
 )
+from formicarium.studies.foraging_options import figure_options
 
 PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
 SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
-PATIENT, ANOVA = "partitioning-patient", "partitioning-anova"
+PATIENT, ANOVA, OPTIONS = "partitioning-patient", "partitioning-anova", "partitioning-options"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
 ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
@@ -42,6 +45,7 @@ DESIGNS = {
     "11": (SCALABILITY,),
     "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
     "anova": (ANOVA,),
+    "options": (OPTIONS,),
     "all": ALL,
 }
 FIGURES = {
@@ -52,6 +56,7 @@ FIGURES = {
     "11": (figure_11, SCALABILITY),
     "giving-up": (figure_giving_up, GIVING_UP),
     "anova": (figure_anova, ANOVA),
+    "options": (figure_options, OPTIONS),
 }
 
 
@@ -78,7 +83,7 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     there = sum(map(len, rows.values()))
     if not there:
         raise UserError(f"{folder}: no run of this study is there in {' or '.join(studies)}. Run it first.")
-    wanted = list(FIGURES) if figure == "all" else [figure]
+    wanted = [name for name in FIGURES if FIGURES[name][1] in rows] if figure == "all" else [figure]
     written = [draw_implementation(name, folder) for name in DRAWN] if figure == "all" else []
     for name in wanted:
         draw, campaign = FIGURES[name]
@@ -91,6 +96,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
             written.append(path)
     if rows.get(ANOVA):
         written += _write_anova(rows[ANOVA], folder)
+    if rows.get(OPTIONS):
+        written.append(_write_options(studies[OPTIONS], rows[OPTIONS], folder))
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -101,6 +108,20 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     for path in written:
         screen.print(f"results   {path}", highlight=False, soft_wrap=True)
     return 0 if there == total else 1
+
+
+def _write_options(study: Study, rows: list[Row], folder: Path) -> Path:
+    """Write what the options bring; their event logs are beside the rows."""
+    ledger = Ledger(study.folder)
+    keys = {(job.cell.number, key[1]): key for job in study.jobs for key in job.keys}
+
+    def log(row: Row) -> np.ndarray:
+        return events_of(table.read(ledger.table_path("events", keys[row["cell"], row["seed"]])), study.system.kinds)
+
+    path = folder / "options.md"
+    with replacing(path) as temporary:
+        temporary.write_text("\n".join(foraging_options.section(rows, log)) + "\n", encoding="utf-8")
+    return path
 
 
 def draw_implementation(figure: str, folder: Path) -> Path:

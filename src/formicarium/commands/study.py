@@ -18,7 +18,24 @@ def study(
     /,
     *,
     figure: Literal[
-        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "all"
+        "2",
+        "3",
+        "4",
+        "5",
+        "6",
+        "7",
+        "S15",
+        "S17",
+        "S18",
+        "S19",
+        "8",
+        "9",
+        "10",
+        "11",
+        "giving-up",
+        "anova",
+        "options",
+        "all",
     ] = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
@@ -51,7 +68,8 @@ def study(
         The study: sequencing (Garattoni & Birattari 2018) or partitioning (Pini et al. 2011).
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 3 to 11, giving-up and anova (Table 1) of partitioning.
+        S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
+        in all) of partitioning.
     out
         Folder of the campaigns, figures, tables and report.
     runs
