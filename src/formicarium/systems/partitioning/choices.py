@@ -2,7 +2,7 @@
 
 from formicarium.compiled import compiled
 from formicarium.streams import advanced, uniform
-from formicarium.systems.partitioning.memory import NEVER, Deed, Estimate, Label
+from formicarium.systems.partitioning.memory import NEVER, Area, Deed, Estimate, Label
 from formicarium.systems.partitioning.parameters import METHODS
 from formicarium.systems.partitioning.strategy import (
     explored,
@@ -28,13 +28,14 @@ def choose(reading, memory, strategy, chart):
         memory.probability = partition_probability(
             memory.whole,
             memory.harvest,
-            memory.store,
+            memory.store + memory.middle,
             steepness_of(strategy, memory.stay),
             strategy.least_probability,
         )
         explore(reading, memory, strategy, chart)
     memory.label = Label.CACHE if uniform(memory.choices) < memory.probability else Label.CORRIDOR
     memory.timer = reading.cycle
+    memory.set_out = memory.area
     memory.waiting = 0
     memory.wait_began = NEVER
 
@@ -45,6 +46,8 @@ def explore(reading, memory, strategy, chart):
     here, there = Estimate.STORE, Estimate.HARVEST
     if memory.loaded == 1:
         here, there = Estimate.HARVEST, Estimate.STORE
+    if memory.area == Area.MIDDLE:
+        here = Estimate.MIDDLE
     corridor_age = max(age_of(reading, memory, chart, Estimate.WHOLE), age_of(reading, memory, chart, there))
     memory.probability = explored(memory.probability, corridor_age, age_of(reading, memory, chart, here), strategy)
 
@@ -81,10 +84,17 @@ def close_timer(reading, memory, strategy, chart, at_nest):
     if memory.timer == NEVER:
         return
     seconds = (reading.cycle - memory.timer) * chart.cycle_time
+    if memory.label == Label.CORRIDOR and memory.set_out == Area.MIDDLE:
+        return  # neither a crossing nor a sub-task
     if memory.label == Label.CORRIDOR:
         note_measurement(reading, memory, Estimate.WHOLE)
         memory.measured = 2.0 * seconds
         memory.whole = renewed(memory.whole, memory.measured, strategy.alpha)
+    elif memory.label == Label.CACHE and memory.area == Area.MIDDLE:
+        if memory.set_out == Area.MIDDLE:
+            note_measurement(reading, memory, Estimate.MIDDLE)
+            memory.measured = seconds
+            memory.middle = renewed(memory.middle, seconds, strategy.alpha)
     elif memory.label == Label.CACHE and at_nest:
         note_measurement(reading, memory, Estimate.STORE)
         memory.measured = seconds
@@ -119,8 +129,10 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     if strategy.method == ALWAYS_PARTITION:
         return False
     own = memory.store if to_pick else memory.harvest
+    if memory.area == Area.MIDDLE:
+        own = memory.middle
     probability = giving_up_probability(
-        waited, own, memory.harvest, memory.store, strategy.giveup_steepness, strategy.giveup_offset
+        waited, own, memory.harvest, memory.store + memory.middle, strategy.giveup_steepness, strategy.giveup_offset
     )
     if strategy.threshold == 1:
         leaves = probability >= memory.limit
@@ -137,8 +149,13 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     memory.updated = Estimate.NONE
     memory.measured = waited
     if waited > own:
-        note_measurement(reading, memory, Estimate.STORE if to_pick else Estimate.HARVEST)
-        if to_pick:
+        estimate = Estimate.STORE if to_pick else Estimate.HARVEST
+        if memory.area == Area.MIDDLE:
+            estimate = Estimate.MIDDLE
+        note_measurement(reading, memory, estimate)
+        if memory.area == Area.MIDDLE:
+            memory.middle = renewed(own, waited, strategy.alpha)
+        elif to_pick:
             memory.store = renewed(own, waited, strategy.alpha)
         else:
             memory.harvest = renewed(own, waited, strategy.alpha)

@@ -45,6 +45,12 @@ class ArenaTable(Table):
     path_shade: float = number(1.0, "1", "of the path, which runs through the corridor only")
     friction: float = number(0.1, "1", "of walls and booths; matters with contact dynamics only [model]", ge=0)
 
+    # Beyond the paper.
+    subtasks: int = number(
+        2, "1", "areas in a row, a cache between neighbours; 3: as many sub-tasks, width grows [TP-O1]", ge=2, le=3
+    )
+    middle_width: float = number(0.80, "m", "of the area between two caches [choice]", ge=0.6, le=2)
+
 
 # Rows: the arena lying on its side.
 LANDSCAPE = {

@@ -149,6 +149,8 @@ def tell(event: Any) -> str:
             return f"{who} dies"
         case EventKind.PROBABILITY:
             return f"{who}: probability {value / 1e6:.6f} on having {Deed(detail).name.lower().replace('_', ' ')}"
+        case EventKind.PASSED_ON:
+            return f"{who} has passed an object on and chooses the {Label(subject).name.lower()}"
         case EventKind.ESTIMATES:
             return f"{who} reckons {subject}, {value} and {detail} cycles to harvest, to store and for the whole"
         case _:
