@@ -197,6 +197,8 @@ export class Arena {
     this.devices.forEach(([points, name], k) => {
       const colour = this.colours[name] || name, around = this.hull(points);
       this.outline(context, around);
+      context.fillStyle = this.get("--floor"); // a booth may stand in a wall
+      context.fill();
       context.fillStyle = colour;
       context.globalAlpha = lit[k] ? 0.45 : 0.05;
       context.fill();
