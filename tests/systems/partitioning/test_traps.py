@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from contracts.states import copy_of, differences
 
+from formicarium.contracts.states import copy_of, differences
 from formicarium.devices.booth import BAY_END, BAY_HALF_WIDTH, HALF
 from formicarium.devices.cache_pair import Pair
 from formicarium.devices.depot import Place, serve_depots
