@@ -23,7 +23,7 @@ from formicarium.systems.registry import resolve
 from formicarium.views.live.player import Player
 from formicarium.views.live.server import Audience, application, listening
 from formicarium.views.live.session import Session
-from formicarium.views.live.wire import Pause, Seek, Show, Speed, look_of
+from formicarium.views.live.wire import Pause, Seek, Show, Speed, greeting
 from formicarium.views.recording.recorded import record_trial
 
 SYSTEM = resolve("mark-i3")
@@ -40,9 +40,7 @@ class Served:
         self.session = Session(SYSTEM, SYSTEM.configure(setting=setting, robots=robots), seed)
         self.session.warm_up()
         self.player = Player(self.session, speed, playing, lambda: {"note": ""})
-        hello = {"title": f"mark-i3, seed {seed}", **look_of(self.session.scene)}
-        hello |= {"identity": self.session.identity.tolist(), "kinds": list(SYSTEM.kinds)}
-        hello |= {"last_cycle": self.session.last_cycle, "touchable": True}
+        hello = greeting(self.session, f"mark-i3, seed {seed}", SYSTEM.kinds)
         audience = Audience(self.player, hello, SYSTEM.watching.tell, SYSTEM.kinds)
         listener = listening("127.0.0.1", 0)
         self.address = f"127.0.0.1:{listener.getsockname()[1]}"
@@ -108,29 +106,33 @@ print(min(counts, default=0), flush=True)
 """
 
 
-def audience() -> None:
+def audience(setting: int = 0, robots: int = 20, cycles: int = 15_000) -> None:
     """Time a trial as fast as it goes, with one page looking and with ten, in turn; the pages are another process."""
-    for setting, robots, cycles in ((0, 20, 15_000), (4, 216, 2500)):
-        times: dict[int, list[tuple[float, float]]] = {0: [], 1: [], PAGES: []}
-        messages = []
-        with Served(setting, robots, 5, 0.0, playing=False) as served:
-            sprint(served, cycles)
-            for _ in range(ROUNDS):
-                for pages, taken in times.items():
-                    words = [sys.executable, "-c", LOOKERS, served.address, str(pages)]
-                    lookers = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-                    assert lookers.stdout is not None
-                    lookers.stdout.readline()
-                    time.sleep(0.5)
-                    taken.append(sprint(served, cycles))
-                    least = int(lookers.communicate("")[0])
-                    messages += [least] if pages == PAGES else []
-        for pages in (1, PAGES):
-            pairs = list(zip(times[pages], times[0], strict=True))
-            wall, processor = ([some[k] / alone[k] for some, alone in pairs] for k in (0, 1))
-            print(f"{pages} pages on {robots} robots: wall clock {spread(wall)} times that of the trial alone;")
-            print(f"    processor time of the trial's thread {spread(processor)} times")
-        print(f"   messages to the slowest page in one trial: {statistics.median(messages):.0f}")
+    times: dict[int, list[tuple[float, float]]] = {0: [], 1: [], PAGES: []}
+    messages = []
+    with Served(setting, robots, 5, 0.0, playing=False) as served:
+        sprint(served, cycles)
+        for _ in range(ROUNDS):
+            for pages, taken in times.items():
+                words = [sys.executable, "-c", LOOKERS, served.address, str(pages)]
+                lookers = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+                assert lookers.stdout is not None
+                lookers.stdout.readline()
+                time.sleep(0.5)
+                taken.append(sprint(served, cycles))
+                least = int(lookers.communicate("")[0])
+                messages += [least] if pages == PAGES else []
+    for pages in (1, PAGES):
+        pairs = list(zip(times[pages], times[0], strict=True))
+        wall, processor = ([some[k] / alone[k] for some, alone in pairs] for k in (0, 1))
+        print(f"{pages} pages on {robots} robots: wall clock {spread(wall)} times that of the trial alone;")
+        print(f"    processor time of the trial's thread {spread(processor)} times")
+    print(f"   messages to the slowest page in one trial: {statistics.median(messages):.0f}")
+
+
+def crowd() -> None:
+    """The same with 216 robots."""
+    audience(4, 216, 2500)
 
 
 def sprint(served: Served, cycles: int) -> tuple[float, float]:
@@ -153,11 +155,11 @@ def drawing() -> None:
     """Count the frames a browser draws in a second."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=FLAGS)
-        for setting, robots, speed in ((0, 20, 30.0), (4, 216, 1.0), (4, 216, 30.0)):
+        for setting, robots, speed in ((4, 216, 1.0), (4, 216, 30.0), (0, 20, 30.0)):
             with Served(setting, robots, 5, speed) as served:
                 page = browser.new_page(viewport={"width": 1280, "height": 800})
                 page.goto(f"http://{served.address}/")
-                time.sleep(2)
+                time.sleep(4)
                 gaps = page.evaluate(
                     """() => new Promise((done) => {
                         const times = [], first = performance.now(), drawn = () => watching.arena.drawn;
@@ -207,10 +209,11 @@ def picture(path: str) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", default=["recording", "audience", "drawing"])
+    parts = {"recording": recording, "audience": audience, "crowd": crowd, "drawing": drawing}
+    parser.add_argument("parts", nargs="*", default=list(parts))
     parser.add_argument("--picture")
     given = parser.parse_args()
     if given.picture:
         picture(given.picture)
     for part in given.parts if not given.picture else ():
-        {"recording": recording, "audience": audience, "drawing": drawing}[part]()
+        parts[part]()

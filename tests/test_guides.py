@@ -94,3 +94,14 @@ def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
     results = tmp_path / "formicarium-results"
     assert (results / "connectivity-swarm" / "errors.csv").exists()
     assert (results / "connectivity-seven" / "lambda2.png").exists()
+
+
+def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("highspy")
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "guides" / "scheduling.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+    assert {file.name for file in (tmp_path / "rescue").iterdir()} == {"schedule.json", "map.png", "gantt.png"}

@@ -16,7 +16,7 @@ from formicarium.systems.registry import resolve
 from formicarium.views.live.player import Player
 from formicarium.views.live.server import MISTAKES, MOST_BYTES, Audience, PortTaken, application, listening
 from formicarium.views.live.session import Session
-from formicarium.views.live.wire import HEAD, look_of
+from formicarium.views.live.wire import HEAD, greeting
 
 SYSTEM = resolve("mark-i3")
 
@@ -28,8 +28,7 @@ class Served:
         self.session = Session(SYSTEM, SYSTEM.configure(), 3)
         self.session.warm_up()
         self.player = Player(self.session, speed, playing, lambda: {"note": ""})
-        hello = {"title": "t", **look_of(self.session.scene), "identity": self.session.identity.tolist()}
-        hello |= {"kinds": list(SYSTEM.kinds), "last_cycle": self.session.last_cycle, "touchable": True}
+        hello = greeting(self.session, "t", SYSTEM.kinds)
         audience = Audience(self.player, hello, SYSTEM.watching.tell, SYSTEM.kinds)
         listener = listening("127.0.0.1", 0)
         self.port = listener.getsockname()[1]

@@ -99,7 +99,7 @@ def show(session: Any, system: System, title: str, page: Page, describe: Callabl
     """
     from formicarium.views.live.player import Player
     from formicarium.views.live.server import Audience, PortTaken, listening, serve
-    from formicarium.views.live.wire import look_of
+    from formicarium.views.live.wire import greeting
 
     try:
         listener = listening(page.host, page.port)
@@ -109,17 +109,9 @@ def show(session: Any, system: System, title: str, page: Page, describe: Callabl
     port = listener.getsockname()[1]
     shown = f"[{page.host}]" if ":" in page.host else page.host
     address = f"http://{'localhost' if page.host in ('127.0.0.1', '0.0.0.0', '::1', '::') else shown}:{port}/"
-    hello = {
-        "title": title,
-        **look_of(session.scene),
-        "identity": [int(robot) for robot in session.identity],
-        "kinds": list(system.kinds),
-        "last_cycle": session.last_cycle,
-        "touchable": session.touchable,
-    }
     player = Player(session, page.speed, page.playing, describe)
     assert system.watching is not None
-    audience = Audience(player, hello, system.watching.tell, system.kinds)
+    audience = Audience(player, greeting(session, title, system.kinds), system.watching.tell, system.kinds)
 
     def ready() -> None:
         print(f"watch it at {address}  (Ctrl-C ends it)", flush=True)

@@ -13,13 +13,18 @@ Several = Annotated[tuple[str, ...], Parameter(negative="")]
 SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
+Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
+Figure = Literal[
+    *("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options"),
+    *("table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "table-2-time", "table-2-travel", "all"),
+]
+
+
 def study(
-    name: Literal["sequencing", "partitioning", "connectivity"],
+    name: Name,
     /,
     *,
-    figure: Literal[
-        "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "all"
-    ] = "all",
+    figure: Figure = "all",
     out: str = "formicarium-results",
     runs: Whole | None = None,
     setting: Annotated[tuple[Literal["0", "1", "2", "3", "4"], ...], Parameter(negative="")] = (),
@@ -46,19 +51,25 @@ def study(
         formicarium study sequencing --out study --collect-only
         formicarium study partitioning --figure 7 --runs 3
         formicarium study connectivity --runs 5
+        formicarium study coverage --figure table-1 --runs 5
+        formicarium study scheduling --figure table-2-time
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011) or
-        connectivity (Panerati et al. 2018, the estimators).
+        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011), or of
+        Panerati et al. 2018 connectivity (the estimators), coverage (the controller) or
+        scheduling (720 instances; needs the extra "scheduling").
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11 and giving-up of partitioning; 2 of connectivity.
+        S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
+        in all) of partitioning; 2 of connectivity; 4, 5, table-1, arms, safe, drops, occlusion,
+        laboratory and scale of coverage; table-2-time, table-2-travel (with figures 7 and 8) of
+        scheduling.
     out
         Folder of the campaigns, figures, tables and report.
     runs
-        Runs of each cell, instead of the design's (30; 50 and 20; 20).
+        Runs of each cell, instead of the design's.
     setting
         Of sequencing: run the cells of this setting alone (several times: of these);
         figures and report still show all that is there.
@@ -87,6 +98,10 @@ def study(
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
     if name == "connectivity":
         return _connectivity(figure, Path(out), runs, workers, collect_only, sources, reference)
+    if name == "coverage":
+        return _coverage(figure, Path(out), runs, workers, collect_only, sources)
+    if name == "scheduling":
+        return _scheduling(figure, Path(out), runs, workers, collect_only)
     from formicarium.commands.published.answers import draw_study, run_study
     from formicarium.commands.published.store import Asked
 
@@ -132,3 +147,30 @@ def _connectivity(
     runs_nothing = collect_only or sources
     code = 0 if runs_nothing else connectivity_study.run_study(out, runs, workers, reference)
     return max(code, connectivity_study.draw_study(out, runs, reference, sources[0] if sources else None))
+
+
+def _coverage(
+    figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
+) -> int:
+    from formicarium.commands import prominences
+    from formicarium.commands.errors import UserError
+
+    if figure not in prominences.DESIGNS:
+        raise UserError(f"--figure {figure}: the study coverage has {', '.join(prominences.DESIGNS)}")
+    if len(sources) > 1:
+        raise UserError("--sources: the study coverage takes one")
+    code = 0 if collect_only or sources else prominences.run_study(figure, out, runs, workers)
+    return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))
+
+
+def _scheduling(figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool) -> int:
+    from formicarium.commands.errors import UserError
+    from formicarium.commands.extras import require
+
+    require("scheduling", "formicarium study scheduling")
+    from formicarium.commands import table_ii
+
+    if figure not in table_ii.TABLES:
+        raise UserError(f"--figure {figure}: the study scheduling has {', '.join(table_ii.TABLES)}")
+    code = 0 if collect_only else table_ii.run_study(figure, out, runs, workers)
+    return max(code, table_ii.draw_study(figure, out, runs))

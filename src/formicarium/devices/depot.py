@@ -35,6 +35,7 @@ DEPOT = np.dtype(
         ("visitor", "i8"),  # index of the robot inside, -1 if none
         ("since", "i8"),  # cycle at which the visit began
         ("noticed", "i8"),  # 1 if the cache took notice of this visit
+        ("blocked", "i8"),  # 1 while a person keeps it dark and unaware
     ],
     align=True,
 )
@@ -65,7 +66,8 @@ def serve_depots(depots, pairs, lights, grips, bodies, interfacing, cycle, cycle
             depot.visitor = deepest
             depot.since = cycle
             depot.noticed = 0
-            if depot.pair >= 0 and came_in(pairs[depot.pair], depot.place == Place.CACHE_PICK):
+            aware = depot.pair >= 0 and depot.blocked == 0
+            if aware and came_in(pairs[depot.pair], depot.place == Place.CACHE_PICK):
                 depot.noticed = 1
                 seconds = interfacing_time(interfacing, depot.place, cycle)
                 grips[deepest].busy_until = cycle + 1 + max(1, int(seconds / cycle_time + 0.5))
@@ -75,7 +77,9 @@ def serve_depots(depots, pairs, lights, grips, bodies, interfacing, cycle, cycle
             depot.noticed = 0
     for b in range(len(depots)):
         depot = depots[b]
-        if depot.pair >= 0:
+        if depot.blocked == 1:
+            lights[b].colour = Colour.OFF
+        elif depot.pair >= 0:
             lights[b].colour = colour_of(pairs[depot.pair], depot.place == Place.CACHE_PICK, depot.occupied)
         elif depot.occupied == 1:
             lights[b].colour = Colour.RED

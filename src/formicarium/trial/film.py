@@ -6,6 +6,7 @@ import numpy as np
 
 from formicarium.compiled import compiled
 from formicarium.physics.records import records
+from formicarium.robots.records import Colour
 from formicarium.trial.record import Frames, Scene
 
 NOWHERE = -1  # no place in a structure
@@ -31,13 +32,13 @@ class Film(NamedTuple):
 
     cycle: np.ndarray  # (F,)
     shots: np.recarray  # SHOT (F, N)
-    lit: np.ndarray  # (F, B), 1 while the lights of a device are on
+    lit: np.ndarray  # (F, B), as in Frames
     taken: np.ndarray  # (1,), moments taken so far
 
 
 def make_film(length: int, robots: int, scene: Scene) -> Film:
-    """Return an empty film of a scene; all its outlines but walls are devices."""
-    devices = sum(polygon.colour != "wall" for polygon in scene.polygons)
+    """Return an empty film of a scene."""
+    devices = len(scene.devices)
     return Film(
         np.zeros(length, "i8"), records(SHOT, (length, robots)), np.zeros((length, devices), "i8"), np.zeros(1, "i8")
     )
@@ -45,7 +46,7 @@ def make_film(length: int, robots: int, scene: Scene) -> Film:
 
 @compiled
 def shoot_robots(state, film):
-    """Take the bodies and lights of all robots; role, carried and places are left to the system."""
+    """Take the bodies of all robots; role, carried, colour and places are left to the system."""
     moment = film.taken[0]
     film.cycle[moment] = state.clock[0].cycle
     for i in range(len(state.robots)):
@@ -54,7 +55,7 @@ def shoot_robots(state, film):
         shot.x = body.x
         shot.y = body.y
         shot.heading = body.heading
-        shot.colour = state.commands[i].colour
+        shot.colour = Colour.OFF
         shot.place = NOWHERE
         shot.after = NOWHERE
     film.taken[0] = moment + 1

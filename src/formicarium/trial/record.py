@@ -19,11 +19,15 @@ EVENT = np.dtype(
 )
 
 
+FLOOR = "floor "  # with the shade after it, 0 black .. 1 white: the colour of a patch of floor
+OBJECT = "object"  # the colour of a place that holds a thing or does not; lit while it does
+
+
 class Polygon(NamedTuple):
     """A closed outline on the floor."""
 
     points: np.ndarray  # (K, 2) metres
-    colour: str  # a name that the views know ("wall", "red", "green", "blue", "orange")
+    colour: str  # a name that the views know ("wall", "red", "green", "blue", "orange"), or one of those above
 
 
 class Scene(NamedTuple):
@@ -34,6 +38,18 @@ class Scene(NamedTuple):
     roles: tuple[str, ...]  # names of the role numbers in the frames, for legends
     cycle_time: float  # seconds
     ranges: tuple[tuple[str, float], ...] = ()  # names and reaches of the robots' senses, metres, to be drawn
+    load: str = ""  # what robots carry ("object"), drawn on who carries; if empty, the carried number is written there
+    number: str = "tasks\ndone so far"  # what the carried number is, for legends
+
+    @property
+    def devices(self) -> tuple[Polygon, ...]:
+        """Everything that is neither wall nor floor, in the order of ``Frames.lit``."""
+        return tuple(p for p in self.polygons if p.colour != "wall" and not p.colour.startswith(FLOOR))
+
+    @property
+    def longest_link(self) -> float:
+        """Length up to which a link between two robots is drawn, metres: 18 radii, or the radio's reach if longer."""
+        return max([18 * self.radius, *(reach for name, reach in self.ranges if name == "radio")])
 
 
 class Frames(NamedTuple):
@@ -45,7 +61,7 @@ class Frames(NamedTuple):
     heading: np.ndarray  # (F, N) float32, radians, counter-clockwise from the x axis
     role: np.ndarray  # (F, N) int8, index into Scene.roles
     carried: np.ndarray  # (F, N) int8, a small number the system wants shown on the robot (tasks done so far)
-    lit: np.ndarray  # (F, B) int8, 1 while the lights of device b are on; devices in the order of the Scene
+    lit: np.ndarray  # (F, B) int8 of the Scene's devices: 0 dark, 1 its lights are on, 2 they show red instead
     identity: np.ndarray  # (N,) int64
     colour: np.ndarray | None = None  # (F, N) int8, Colour of each robot's lights
     joined: np.ndarray | None = None  # (F, N) int16, column of the robot that each is linked to, -1 for none

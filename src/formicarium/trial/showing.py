@@ -15,17 +15,31 @@ Words = Mapping[str, Callable[[Any], str]]  # field -> how its value is written
 WRONG_CONTENT = 10.0  # cost of a sender that says something else than what was heard
 
 
+def has_radio(state: Any) -> bool:
+    """Tell whether the robots of a system hear packets at all."""
+    readings = getattr(state, "readings", None)
+    return readings is not None and "packets" in readings.dtype.names
+
+
 def packets_of(state: Any) -> np.ndarray:
     """Return who heard whom in the last cycle: (P, 2) columns of receiver and sender, as frames are ordered.
 
-    A robot does not know who sent what it hears, but a viewer can tell: the sender is the robot that says just
-    that in the direction from which it came.
+    Where a message does not name its sender a viewer can tell all the same: it is the robot that says just that in
+    the direction from which it came. Robots without radio hear nobody.
     """
+    if not has_radio(state):
+        return np.zeros((0, 2), "u2")
     readings, robots, bodies = (np.asarray(part) for part in (state.readings, state.robots, state.world.bodies))
     heard = np.arange(readings["packets"].shape[1]) < readings["packet_count"][:, None]
     heard &= robots["alive"][:, None] == 1
     receiver, place = np.nonzero(heard)
     packet = readings["packets"][receiver, place]
+    column = np.empty(len(robots), "i8")
+    column[np.argsort(robots["identity"])] = np.arange(len(robots))
+    if "sender" in (packet.dtype.names or ()):
+        body_of = np.zeros(robots["identity"].max() + 1, "i8")
+        body_of[robots["identity"]] = np.arange(len(robots))
+        return np.stack([column[receiver], column[body_of[packet["sender"]]]], axis=1).astype("u2")
     dx = bodies["x"][None] - bodies["x"][receiver, None]
     dy = bodies["y"][None] - bodies["y"][receiver, None]
     turn = np.arctan2(dy, dx) - bodies["heading"][receiver, None] - packet["bearing"][:, None]
@@ -37,8 +51,6 @@ def packets_of(state: Any) -> np.ndarray:
     cost += np.where(saying, 0.0, WRONG_CONTENT)
     cost[np.arange(len(receiver)), receiver] = math.inf
     sender = cost.argmin(axis=1) if len(receiver) else receiver
-    column = np.empty(len(robots), "i8")
-    column[np.argsort(robots["identity"])] = np.arange(len(robots))
     return np.stack([column[receiver], column[sender]], axis=1).astype("u2")
 
 
@@ -96,12 +108,18 @@ def side_by_side(title: str, records: Mapping[str, Any], words: Words) -> Sectio
 def reading_sections(reading: Any) -> list[Section]:
     """Return what a robot senses, but for the content of packets."""
     words = {"infrared": byte}
-    rows = fields(reading, words, ("proximity", "blobs", "packets"))
-    sensors = zip(PROXIMITY_ANGLES, reading["proximity"])
+    rays = [name for name in ("proximity", "light") if name in reading.dtype.names]
+    rows = fields(reading, words, (*rays, "blobs", "packets"))
+    sensors = zip(PROXIMITY_ANGLES, *(reading[name] for name in rays))
+    titles = {"proximity": "0 nothing, 1 touching", "light": "light, 0 dark"}
     blobs = reading["blobs"][: int(reading["blob_count"])]
     return [
         Section("Reading", ("field", "value"), tuple(rows)),
-        Section("Proximity", ("towards", "0 nothing, 1 touching"), tuple((degrees(a), f"{v:.2f}") for a, v in sensors)),
+        Section(
+            "Proximity",
+            ("towards", *(titles[name] for name in rays)),
+            tuple((degrees(angle), *(f"{value:.2f}" for value in values)) for angle, *values in sensors),
+        ),
         Section(
             "Lights seen",
             ("colour", "distance", "bearing"),

@@ -3,10 +3,12 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PathCollection, PolyCollection
 from matplotlib.colors import to_rgba
+from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.transforms import AffineDeltaTransform
 
-from formicarium.trial.record import Frames, Scene
+from formicarium.trial.record import FLOOR as FLOOR_SHADE
+from formicarium.trial.record import OBJECT, Frames, Scene
 from formicarium.views.chain import bands
 from formicarium.views.figure import new_figure
 from formicarium.views.glyphs import glyph
@@ -15,7 +17,7 @@ from formicarium.views.style import FLOOR, INK, NAMED, PALE_INK, PAPER, clock, c
 
 WIDTH, HEIGHT = 8.0, 6.4  # inches
 MARGIN = 0.06  # metres around the arena
-FLOOR_SHADE = "floor "  # colour of a patch of floor in a Scene: this and its shade, 0 black .. 1 white
+BOX = 0.45 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)])  # what a robot carries, in radii of the robot
 
 
 class Overhead:
@@ -25,7 +27,6 @@ class Overhead:
         """Draw the arena, the devices and the legend."""
         self.scene = scene
         self.styles = role_styles(scene.roles)
-        self._number = "tasks\ndone so far" if "runner" in scene.roles else "what it\ncarries"
         self.figure = new_figure(WIDTH, HEIGHT)
         self.axes = self.figure.add_axes((0.0, 0.0, HEIGHT / WIDTH, 1.0))
         self.side = self.figure.add_axes((HEIGHT / WIDTH, 0.0, 1 - HEIGHT / WIDTH, 1.0))
@@ -47,6 +48,7 @@ class Overhead:
             self.bodies,
             self.headings,
             self.letters,
+            self.loads,
             self.time,
             *self.counts,
         ]
@@ -63,6 +65,8 @@ class Overhead:
         self.headings.set_segments(list(ends))
         self.letters.set(offsets=places, facecolors=self._inks[role])
         self.letters.set_paths([self._letter(*pair) for pair in zip(role, frames.carried[index])])
+        loaded = (frames.carried[index] > 0) & bool(self.scene.load)
+        self.loads.set_offsets((places - radius * forward)[loaded])
         self.chain.set_segments(self._links(frames, index, places))
         self._light(frames.lit[index])
         self.time.set_text(clock(frames.cycle[index] * self.scene.cycle_time))
@@ -75,17 +79,18 @@ class Overhead:
             return bands(places[chained], 10 * self.scene.radius)
         other = frames.joined[index]
         pairs = np.stack([places, places[other]], axis=1)[other >= 0]
-        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < 18 * self.scene.radius])
+        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < self.scene.longest_link])
 
     def _letter(self, role: int, carried: int):
-        text = self.styles[role].letter or (str(carried) if carried else "")
+        text = self.styles[role].letter or (str(carried) if carried and not self.scene.load else "")
         return glyph(text, self.scene.radius * 0.8)
 
     def _light(self, lit: np.ndarray) -> None:
-        on = np.zeros(len(self._booth_colours), bool)
-        on[: len(lit)] = lit[: len(on)] > 0
-        self.booths.set(facecolors=np.where(on[:, None], self._booth_colours, _rgba(PAPER)))
-        self.booth_letters.set(facecolors=np.where(on[:, None], _rgba(PAPER), self._booth_colours))
+        shown = np.zeros((len(self._booth_colours), 1), int)
+        shown[: len(lit), 0] = lit[: len(shown)]
+        fills = np.where(shown == 2, _rgba(NAMED["red"]), self._booth_colours)
+        self.booths.set(facecolors=np.where(shown > 0, fills, _rgba(PAPER)))
+        self.booth_letters.set(facecolors=np.where(shown > 0, _rgba(PAPER), self._booth_colours))
 
     def _draw_arena(self) -> None:
         points = np.concatenate([polygon.points for polygon in self.scene.polygons])
@@ -117,8 +122,7 @@ class Overhead:
         self.axes.text(start[0] + length / 2, start[1] + 0.02 * half, f"{length} m", ha="center", size=10, color=INK)
 
     def _make_moving(self) -> None:
-        still = ("wall", FLOOR_SHADE)
-        devices = [polygon for polygon in self.scene.polygons if not polygon.colour.startswith(still)]
+        devices = self.scene.devices
         self._booth_colours = np.array([_rgba(colour(device.colour)) for device in devices]).reshape(-1, 4)
         in_metres = AffineDeltaTransform(self.axes.transData)  # type: ignore[arg-type]
         outlines = [hull(device.points) for device in devices]
@@ -131,7 +135,7 @@ class Overhead:
             autolim=False,
         )
         self.booth_letters = PathCollection(
-            [glyph(device.colour[:1].upper(), self.scene.radius) for device in devices],
+            [glyph(device.colour[:1].upper() * (device.colour != OBJECT), self.scene.radius) for device in devices],
             offsets=[(o.min(axis=0) + o.max(axis=0)) / 2 for o in outlines] or np.zeros((0, 2)),
             offset_transform=self.axes.transData,
             transform=in_metres,
@@ -159,8 +163,19 @@ class Overhead:
             linewidths=0,
             zorder=6,
         )
-        for artist in (self.booths, self.booth_letters, self.chain, self.bodies, self.headings, self.letters):
+        self.loads = PathCollection(
+            [Path(BOX * self.scene.radius)],
+            offsets=np.zeros((0, 2)),
+            offset_transform=self.axes.transData,
+            facecolors=NAMED[OBJECT],
+            edgecolors=INK,
+            linewidths=0.8,
+            zorder=7,
+        )
+        artists = (self.booths, self.booth_letters, self.chain, self.bodies, self.headings, self.letters, self.loads)
+        for artist in artists:
             self.axes.add_collection(artist, autolim=False)
+        self.loads.set_transform(in_metres)
         self.letters.set_transform(in_metres)
         self.booth_letters.set_transform(in_metres)
 
@@ -173,10 +188,11 @@ class Overhead:
         for row, (name, style) in enumerate(zip(self.scene.roles, self.styles)):
             self._legend_row(4.6 - 0.42 * row, name, style)
         below = 4.6 - 0.42 * len(self.styles)
+        number = f"brown box: {self.scene.load}" if self.scene.load else f"number: {self.scene.number}"
         self.side.text(
             0.05,
             below - 0.05,
-            f"number: {self._number}\n\nbooth filled: lit\nbooth hollow: dark",
+            f"{number}\n\nbooth filled: lit\nbooth hollow: dark",
             size=9,
             color=PALE_INK,
             va="top",

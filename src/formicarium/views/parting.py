@@ -7,7 +7,7 @@ import numpy as np
 
 from formicarium.trial.record import Frames
 from formicarium.views.live.session import Session
-from formicarium.views.recording.digest import LEFT_OUT, digest
+from formicarium.views.recording.digest import deciding, digest
 
 LOOK = 100  # cycles between two comparisons, until they part
 
@@ -60,10 +60,8 @@ def _parted(a: Session, b: Session) -> Parting:
 
 
 def _leaves(state: Any) -> Iterator[tuple[str, np.ndarray]]:
-    yield from _fields("bodies", np.asarray(state.world.bodies))
-    for name, part in state._asdict().items():
-        if name not in LEFT_OUT and not isinstance(part, tuple):
-            yield from _fields(name, np.asarray(part))
+    for name, part in deciding(state):
+        yield from _fields(name, part)
 
 
 def _fields(path: str, array: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:

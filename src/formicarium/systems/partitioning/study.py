@@ -11,12 +11,15 @@ from formicarium.systems.partitioning.loop import run
 from formicarium.systems.partitioning.measures import EventKind, outcome, role_of
 from formicarium.systems.partitioning.parameters import PartitioningParameters, partitioning_parameters
 from formicarium.systems.partitioning.setup import PartitioningState, begin
+from formicarium.systems.partitioning.watching import DEAD, holds, inspect, intervene, roll, shoot, shown, tell
 from formicarium.systems.registry import System, Targets
-from formicarium.trial.record import Frames, Polygon, Scene, Span, Timeline, Trial
+from formicarium.trial.record import FLOOR, OBJECT, Frames, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.simulate import Album, simulate
+from formicarium.trial.watching import Watching
 
 ROLES = ("harvest", "cache", "corridor", "store", "dead")  # as frames number them
-DEAD = 4
+HALF_OBJECT = 0.016  # m, as it is drawn in the cache
+SQUARE = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
 SHOWN = ("green", "blue", "blue", "green")  # what the booths of each Place show when there is something to do
 
 
@@ -27,20 +30,35 @@ def frame_roles(state: PartitioningState) -> np.ndarray:
 
 
 def lit(state: PartitioningState) -> np.ndarray:
-    """Return which booths show their own colour: not those that are dark, nor those that show red."""
-    return (state.lights.colour != 0) & (state.depots.occupied == 0)
+    """Return what the booths show and where the cache holds an object, as a frame has it."""
+    booths = [shown(colour) for colour in state.lights.colour]
+    return np.array([*booths, *(holds(state, k) for k in range(len(state.pairs)))])
 
 
 def scene_of(parameters: PartitioningParameters, state: PartitioningState) -> Scene:
-    """Return what stands still: floor, walls, block, the cache's column, and the booths."""
+    """Return what stands still: floor, walls, block, the cache's column, the booths, places of objects in the cache."""
     arena = make_arena(parameters.arena)
     polygons = [Polygon(arena.corners, "wall")]
-    polygons += [Polygon(corners(patch), f"floor {patch.shade:.2f}") for patch in arena.floor]
+    polygons += [Polygon(corners(patch), f"{FLOOR}{patch.shade:.2f}") for patch in arena.floor]
     polygons += [Polygon(points, "wall") for points in arena.solids]
     for k, place in enumerate(arena.places):
         own = arena.segments[arena.segments.group == k + 1]
         polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), SHOWN[place]))
-    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.swarm.cycle_time)
+    for k in range(parameters.arena.cache_pairs):
+        sides = np.array([booth[:2] for booth, pair in zip(arena.booths, arena.pairs) if pair == k])
+        polygons.append(Polygon(sides.mean(axis=0) + HALF_OBJECT * SQUARE, OBJECT))
+    ranges = (("camera", parameters.sight.range),)
+    return Scene(tuple(polygons), parameters.epuck.radius, ROLES, parameters.swarm.cycle_time, ranges, OBJECT)
+
+
+def outcome_row(parameters: PartitioningParameters, state: PartitioningState, events: np.ndarray) -> dict[str, Any]:
+    """Return the row of a finished trial."""
+    row: dict[str, Any] = {
+        "robots": parameters.swarm.robots,
+        "method": parameters.strategy.method,
+        "interfacing_time_s": parameters.cache.interfacing_time,
+    }
+    return row | outcome(state, events)
 
 
 def run_trial(
@@ -63,13 +81,8 @@ def run_trial(
     album = Album(state, frame_roles, lambda state: state.memories.loaded)
     take = None if frames_every is None else lambda state: album.take(state, lit(state))
     events = simulate(run, state, every=every, take=take, watch=watch)
-    row: dict[str, Any] = {
-        "robots": parameters.swarm.robots,
-        "method": parameters.strategy.method,
-        "interfacing_time_s": parameters.cache.interfacing_time,
-    }
     frames: Frames | None = album.frames() if frames_every is not None else None
-    return Trial(row | outcome(state, events), events, frames, scene_of(parameters, state))
+    return Trial(outcome_row(parameters, state, events), events, frames, scene_of(parameters, state))
 
 
 def timeline(trial: Trial) -> Timeline:
@@ -108,4 +121,5 @@ PARTITIONING = System(
     begin=begin,
     advance=run,
     roles=frame_roles,
+    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
 )

@@ -40,6 +40,7 @@ def shoot(state, film):
         memory = state.memories[i]
         shot = film.shots[moment, i]
         shot.carried = memory.count
+        shot.colour = state.commands[i].colour
         if state.robots[i].alive == 0:
             shot.role = DEAD
         elif memory.role == Role.RUNNER:

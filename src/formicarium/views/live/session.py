@@ -11,7 +11,7 @@ import numpy as np
 from formicarium.systems.registry import System
 from formicarium.trial.film import frames_of, make_film
 from formicarium.trial.record import EVENT, Frames, Scene
-from formicarium.trial.showing import packets_of
+from formicarium.trial.showing import has_radio, packets_of
 from formicarium.trial.simulate import LOOK, drain
 from formicarium.trial.watching import Inspection, Intervention, Watching
 from formicarium.views.live.checking import Checks
@@ -83,6 +83,11 @@ class Session:
         self._arrive()
 
     @property
+    def radio(self) -> bool:
+        """Whether robots hear packets that could be shown."""
+        return has_radio(self.state)
+
+    @property
     def cycle(self) -> int:
         """Where the trial stands."""
         return int(self._cycle[0])
@@ -106,7 +111,12 @@ class Session:
         """Load or compile the code, on a state that is then let go, so that nobody waits for it later."""
         begin, run, watching = watching_of(self.system)
         spare = begin(self.parameters, 0)
-        run(spare, 1)
+        try:
+            run(spare, 1)
+        except Exception as error:
+            if self.system.explained is None:
+                raise
+            raise self.system.explained(self.parameters, 0, 0, error) from error
         watching.roll(spare, 1, 1, make_film(1, len(self.identity), self.scene))
         watching.shoot(spare, make_film(1, len(self.identity), self.scene))
 

@@ -37,6 +37,19 @@ def look_of(scene: Scene) -> dict[str, Any]:
     return {"scene": scene_content(scene), "styles": styles, "colours": NAMED}
 
 
+def greeting(session: Any, title: str, kinds: tuple[str, ...]) -> dict[str, Any]:
+    """Return what a page is told first of a Session or LoggedFrames; ``kinds`` are the names of the event kinds."""
+    return {
+        "title": title,
+        **look_of(session.scene),
+        "identity": [int(robot) for robot in session.identity],
+        "kinds": list(kinds),
+        "last_cycle": session.last_cycle,
+        "touchable": session.touchable,
+        "radio": session.radio,
+    }
+
+
 def inspection_content(inspection: Inspection) -> dict[str, Any]:
     """Return an inspection as plain values."""
     sections = [section._asdict() for section in inspection.sections]

@@ -1,6 +1,7 @@
 // The arena from above on a canvas: what does not move is drawn once, robots are stamps that are made once.
 
 const TRAIL = 150; // cycles that a trail lasts
+const GAP = 50; // cycles between two pictures, over which no trail is drawn
 const MOST_PLACES = 80; // of one trail
 const STAMP_SCALES = [24, 40, 64, 96, 160]; // pixels across a stamped robot
 
@@ -24,7 +25,11 @@ export class Arena {
     const [xs, ys] = [points.map((p) => p[0]), points.map((p) => p[1])];
     this.low = [Math.min(...xs), Math.min(...ys)];
     this.high = [Math.max(...xs), Math.max(...ys)];
-    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall");
+    this.devices = scene.polygons.filter(([, colour]) => colour !== "wall" && !colour.startsWith("floor "));
+    this.names = this.devices.map(([, colour], k) => {
+      const alike = this.devices.flatMap(([, other], j) => (other === colour ? [j] : []));
+      return alike.length > 1 ? `${colour} ${alike.indexOf(k) + 1}` : colour;
+    });
     this.resize();
   }
 
@@ -35,7 +40,7 @@ export class Arena {
   resize() {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (!this.scene || !width) return;
+    if (!this.scene || !width || !height) return;
     for (const canvas of [this.canvas, this.still]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
@@ -46,6 +51,7 @@ export class Arena {
     this.middle ??= [(this.low[0] + this.high[0]) / 2, (this.low[1] + this.high[1]) / 2];
     this.ratio = ratio;
     this.ink = this.get("--ink");
+    this.floor = this.get("--floor");
     this.pale = this.get("--pale");
     this.accent = this.get("--accent");
     this.stamps.clear();
@@ -115,6 +121,11 @@ export class Arena {
     context.clearRect(0, 0, this.still.width, this.still.height);
     context.lineJoin = "round";
     for (const [points, colour] of this.scene.polygons) {
+      if (colour.startsWith("floor ")) {
+        this.outline(context, points);
+        context.fillStyle = this.shade(Number(colour.slice(6)));
+        context.fill();
+      }
       if (colour !== "wall") continue;
       this.outline(context, points);
       const whole = this.area(points) > 0.4 * (this.high[0] - this.low[0]) * (this.high[1] - this.low[1]);
@@ -134,6 +145,13 @@ export class Arena {
     context.stroke();
     context.font = `${12 * this.ratio}px system-ui, sans-serif`;
     context.fillText(`${length} m`, left, bottom - 6 * this.ratio);
+  }
+
+  // The colour of a floor, from black (0) to white (1).
+  shade(share) {
+    const [black, white] = [this.get("--black"), this.get("--white")].map((text) =>
+      [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
+    return `rgb(${black.map((value, k) => Math.round(value + share * (white[k] - value))).join()})`;
   }
 
   area(points) {
@@ -188,25 +206,30 @@ export class Arena {
 
   drawDevices(context, lit) {
     this.devices.forEach(([points, name], k) => {
-      const colour = this.colours[name] || name, around = this.hull(points);
+      const own = this.colours[name] || name, colour = lit[k] === 2 ? this.colours.red : own;
+      const around = this.hull(points);
       this.outline(context, around);
+      context.fillStyle = this.floor;
+      context.fill(); // a booth may stand in a wall
       context.fillStyle = colour;
       context.globalAlpha = lit[k] ? 0.45 : 0.05;
       context.fill();
       context.globalAlpha = 1;
       const bent = this.area(points) < 0.9 * this.area(around);
       this.outline(context, points);
-      context.strokeStyle = colour;
+      context.strokeStyle = context.fillStyle = own;
       context.lineWidth = 2 * this.ratio;
-      if (bent) context.fill();
+      if (bent || (name === "object" && lit[k])) context.fill();
       context.stroke();
+      if (name === "object") return;
       const middle = around.reduce(([a, b], [x, y]) => [a + x / around.length, b + y / around.length], [0, 0]);
       const [px, py] = this.at(...middle);
       context.fillStyle = lit[k] && !bent ? "#fff" : this.ink;
-      context.font = `700 ${Math.max(11 * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
+      const text = name[0].toUpperCase() + (this.names[k].split(" ")[1] ?? "");
+      context.font = `700 ${Math.max((13 - 2 * text.length) * this.ratio, 0.045 * this.scale)}px system-ui, sans-serif`;
       context.textAlign = "center";
       context.textBaseline = "middle";
-      context.fillText(name[0].toUpperCase(), px, py);
+      context.fillText(text, px, py);
       if (this.blocked.has(k)) {
         context.strokeStyle = this.ink;
         context.lineWidth = 3 * this.ratio;
@@ -221,15 +244,13 @@ export class Arena {
   }
 
   remember(shown, cycle) {
-    if (!this.trails || this.trails.length !== shown.x.length || cycle < this.trailed) {
+    if (!this.trails || cycle < this.trailed || cycle > this.trailed + GAP) {
       this.trails = Array.from(shown.x, () => []);
       this.trailed = -1e9;
     }
     if (cycle - this.trailed < 3) return;
     this.trailed = cycle;
     this.trails.forEach((trail, i) => {
-      const last = trail.at(-1);
-      if (last && Math.hypot(last[0] - shown.x[i], last[1] - shown.y[i]) > 1) trail.length = 0;
       trail.push([shown.x[i], shown.y[i], cycle]);
       while (trail.length > MOST_PLACES || trail[0][2] < cycle - TRAIL) trail.shift();
     });
@@ -256,10 +277,11 @@ export class Arena {
 
   // shown: {x, y, heading} as they are drawn now; frame: the frame they belong to.
   draw(shown, frame, seconds) {
-    if (!this.scene || !this.canvas.width) return;
+    if (!this.scene || !this.still.width || !this.whole) return;
     this.shown = shown;
     const context = this.canvas.getContext("2d"), { x, y, heading } = shown, { role, carried, joined } = frame;
     const radius = this.scene.radius, count = x.length;
+    const longest = Math.max(18 * radius, ...this.scene.ranges.filter(([name]) => name === "radio").map(([, r]) => r));
     this.remember(shown, frame.cycle);
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.drawImage(this.still, 0, 0);
@@ -270,17 +292,19 @@ export class Arena {
       const pairs = [];
       for (let i = 0; i < count; i++) {
         const j = joined[i];
-        if (j >= 0 && Math.hypot(x[i] - x[j], y[i] - y[j]) < 18 * radius) pairs.push([x[i], y[i], x[j], y[j]]);
+        if (j >= 0 && Math.hypot(x[i] - x[j], y[i] - y[j]) < longest) pairs.push([x[i], y[i], x[j], y[j]]);
       }
       this.lines(context, pairs, "#c9a400", 0.5 * radius * this.scale, 0.55);
     }
     if (this.layers.packets) this.drawPackets(context, frame.packets, x, y, seconds);
     const across = 3 * radius * this.scale;
     for (let i = 0; i < count; i++) {
-      const style = this.styles[role[i]], text = style.letter || (carried[i] ? String(carried[i]) : "");
+      const style = this.styles[role[i]], number = carried[i] && !this.scene.load ? String(carried[i]) : "";
+      const text = style.letter || number;
       const [px, py] = this.at(x[i], y[i]);
       context.drawImage(this.stamp(role[i], text), px - across / 2, py - across / 2, across, across);
     }
+    if (this.scene.load) this.drawLoads(context, x, y, heading, carried);
     const ways = [];
     for (let i = 0; i < count; i++) {
       const [dx, dy] = [Math.cos(heading[i]) * radius, Math.sin(heading[i]) * radius];
@@ -293,6 +317,20 @@ export class Arena {
     if (this.held) this.ring(context, this.held.x, this.held.y, radius, this.accent, 2);
     if (this.layers.names) this.drawNames(context, x, y);
     this.drawn += 1;
+  }
+
+  // What robots carry: a box at the back, so that letter and heading stay readable.
+  drawLoads(context, x, y, heading, carried) {
+    const radius = this.scene.radius, side = 0.9 * radius * this.scale;
+    context.fillStyle = this.colours.object;
+    context.strokeStyle = "#22262b";
+    context.lineWidth = this.ratio;
+    for (let i = 0; i < x.length; i++) {
+      if (!carried[i]) continue;
+      const [px, py] = this.at(x[i] - Math.cos(heading[i]) * radius, y[i] - Math.sin(heading[i]) * radius);
+      context.fillRect(px - side / 2, py - side / 2, side, side);
+      context.strokeRect(px - side / 2, py - side / 2, side, side);
+    }
   }
 
   drawTrails(context, role) {
@@ -325,7 +363,7 @@ export class Arena {
         context.font = `${11 * this.ratio}px system-ui, sans-serif`;
         context.textAlign = "center";
         context.textBaseline = side > 0 ? "bottom" : "top";
-        context.fillText(`${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
+        this.write(context, `${name} ${reach.toFixed(2)} m`, px, py - 4 * side);
       });
     }
   }
@@ -344,18 +382,19 @@ export class Arena {
 
   drawPackets(context, packets, x, y, seconds) {
     const pairs = [];
-    context.fillStyle = this.accent;
-    context.beginPath();
     for (let k = 0; k < packets.length; k += 2) {
       const [to, from] = [packets[k], packets[k + 1]];
       if (this.selected >= 0 && to !== this.selected && from !== this.selected) continue;
-      pairs.push([x[from], y[from], x[to], y[to]]);
-      const t = (seconds * 1.6 + (to * 0.37 + from * 0.61)) % 1;
-      const [px, py] = this.at(x[from] + t * (x[to] - x[from]), y[from] + t * (y[to] - y[from]));
+      pairs.push([x[from], y[from], x[to], y[to], to * 0.37 + from * 0.61]);
+    }
+    this.lines(context, pairs, this.accent, this.ratio, 0.28);
+    context.fillStyle = this.accent;
+    context.beginPath();
+    for (const [ax, ay, bx, by, start] of pairs) {
+      const t = (seconds * 1.6 + start) % 1, [px, py] = this.at(ax + t * (bx - ax), ay + t * (by - ay));
       context.moveTo(px + 2.6 * this.ratio, py);
       context.arc(px, py, 2.6 * this.ratio, 0, 2 * Math.PI);
     }
-    this.lines(context, pairs, this.accent, this.ratio, 0.28);
     context.fill();
   }
 
@@ -366,7 +405,16 @@ export class Arena {
     context.textBaseline = "bottom";
     for (let i = 0; i < x.length; i++) {
       const [px, py] = this.at(x[i] + this.scene.radius, y[i] + this.scene.radius);
-      context.fillText(this.identity[i], px, py);
+      this.write(context, this.identity[i], px, py);
     }
+  }
+
+  // A text that stays readable on whatever it lies on.
+  write(context, text, px, py) {
+    context.strokeStyle = this.floor;
+    context.lineWidth = 3 * this.ratio;
+    context.lineJoin = "round";
+    context.strokeText(text, px, py);
+    context.fillText(text, px, py);
   }
 }

@@ -5,9 +5,11 @@ import { openFilm } from "./film.js";
 import { connect } from "./live.js";
 import { clock, element, showEvents, showInspection, showLegend, showMarks } from "./panels.js";
 
+const LISTING = 300; // ms between two listings of the events while the trial runs
+
 const find = (id) => document.getElementById(id);
 const arena = new Arena(find("arena"));
-const now = { events: [], hands: [], status: {}, frame: null, before: null, arrived: 0, interval: 100, selected: 0 };
+const now = { events: [], hands: [], status: {}, frame: null, before: null, arrived: 0, listed: 0, interval: 100, selected: 0 };
 let hello = null;
 let scrubbing = false;
 let listed = "";
@@ -22,17 +24,21 @@ const told = {
     if (content.touchable) {
       find("devices").hidden = arena.devices.length === 0;
       find("booths").replaceChildren(...arena.devices.map(([, name], k) => {
+        if (name === "object") return element("span", { hidden: true });
         const square = element("i");
         square.style.background = content.colours[name] || name;
-        const button = element("button", { type: "button" }, square, element("span"));
+        const numbered = arena.names[k] !== name; // 14 booths have no room for whole words
+        const text = numbered ? name[0].toUpperCase() + arena.names[k].split(" ")[1] : name;
+        const button = element("button", { type: "button", ariaLabel: `Block booth ${arena.names[k]}` }, square, text);
         button.onclick = () => ask({ do: arena.blocked.has(k) ? "unblock" : "block", subject: k });
         return button;
       }));
       showBlocked();
     }
+    document.querySelector("[data-layer=packets]").hidden = !content.radio;
+    document.querySelector("[data-layer=chain]").hidden = !content.styles.some((style) => style.chained);
     if (!content.touchable) {
       find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
-      document.querySelector("[data-layer=packets]").hidden = true;
     }
     if (content.identity.length > 80) setLayer("trails", false);
   },
@@ -47,6 +53,7 @@ const told = {
     }
     if (!now.frame || frame.cycle !== now.frame.cycle || frame.jump) now.arrived = time;
     now.frame = frame;
+    if (frame.joined.some((other) => other >= 0)) document.querySelector("[data-layer=chain]").hidden = false;
     find("time").value = clock(frame.cycle * hello.scene.cycle_time, true);
     if (!scrubbing) find("scrub").value = frame.cycle;
     arena.stale = true;
@@ -67,7 +74,7 @@ const told = {
     now.hands = status.interventions.map(([cycle, deed, subject]) => [cycle, "you", subject, `you ${deed} ${nameOf(deed, subject)}`]);
     if (JSON.stringify(before.interventions) !== JSON.stringify(status.interventions)) arena.stale = true;
     showBlocked();
-    list();
+    if (!status.playing || performance.now() - now.listed > LISTING) list();
   },
   events({ again, rows }) {
     if (again) [now.events, now.size] = [[], ""];
@@ -98,7 +105,7 @@ function say(place, text) {
 }
 
 function nameOf(deed, subject) {
-  return deed.endsWith("block") ? `the ${arena.devices[subject]?.[1]} booth` : `robot ${subject}`;
+  return deed.endsWith("block") ? `booth ${arena.names[subject]}` : `robot ${subject}`;
 }
 
 function ask(wish) {
@@ -109,7 +116,7 @@ function ask(wish) {
 function blended(time) {
   const { frame, before } = now;
   if (!before) return frame;
-  const t = Math.min((time - now.arrived) / Math.max(now.interval, 8), 1);
+  const t = Math.min(Math.max((time - now.arrived) / Math.max(now.interval, 8), 0), 1); // a frame may come after ``time``
   if (t >= 1) return frame;
   const mix = (a, b) => b.map((value, i) => a[i] + t * (value - a[i]));
   return { x: mix(before.x, frame.x), y: mix(before.y, frame.y), heading: mix(before.heading, frame.heading) };
@@ -123,10 +130,11 @@ function draw(time) {
   arena.stale = moving;
   const shown = blended(time);
   arena.draw(shown, now.frame, time / 1000);
-  showLegend(find("legend"), hello.scene.roles, hello.styles, now.frame.role);
+  showLegend(find("legend"), hello.scene, hello.styles, now.frame, hello.colours);
 }
 
 function list() {
+  now.listed = performance.now();
   const kind = find("kinds").value, cycle = now.status.cycle ?? 0;
   const size = `${now.events.length}/${now.hands.length}/${now.status.turns}`;
   if (now.size !== size) {
@@ -164,7 +172,6 @@ function showBlocked() {
   }
   arena.blocked = blocked;
   [...find("booths").children].forEach((button, k) => {
-    say(button.lastChild, `${blocked.has(k) ? "Unblock" : "Block"} ${arena.devices[k][1]}`);
     button.setAttribute("aria-pressed", blocked.has(k));
   });
 }
@@ -269,6 +276,9 @@ canvas.onpointerup = () => {
   arena.held = pressed = null;
   arena.stale = true;
 };
+canvas.addEventListener("touchstart", (event) => { // or the page would be scrolled instead of the robot dragged
+  if (arena.robotAt(arena.metres(event.touches[0]), 2.5) >= 0) event.preventDefault();
+}, { passive: false });
 canvas.onwheel = (event) => {
   event.preventDefault();
   arena.magnify(Math.exp(-event.deltaY / 400), arena.metres(event));

@@ -31,10 +31,10 @@ const OPEN = new Set(["Memory", "Messages heard", "Messages sent"]);
 export function showInspection(place, { sections }) {
   const known = new Map([...place.querySelectorAll("details")].map((d) => [d.dataset.title, d]));
   const scrolled = place.scrollTop;
-  const made = sections.map((section) => {
+  const made = sections.map((section, k) => {
     const before = known.get(section.title);
     const size = section.rows.length ? "" : "none";
-    const details = element("details", { open: before ? before.open : OPEN.has(section.title) },
+    const details = element("details", { open: before ? before.open : !k || OPEN.has(section.title) },
       element("summary", {}, section.title, " ", element("small", { textContent: size })));
     details.dataset.title = section.title;
     if (section.rows.length) details.append(table(section));
@@ -58,10 +58,10 @@ export function showEvents(list, events, cycleTime, cycle, kind, go) {
   }));
 }
 
-export function showLegend(place, roles, styles, role) {
-  const counts = roles.map(() => 0);
+export function showLegend(place, { roles, load }, styles, { role, carried }, colours) {
+  const counts = roles.map(() => 0), loaded = carried.reduce((sum, number) => sum + (number > 0), 0);
   for (const r of role) counts[r]++;
-  const text = counts.join();
+  const text = [counts, loaded].join();
   if (place.dataset.counts === text) return;
   place.dataset.counts = text;
   place.replaceChildren(...roles.map((name, k) => {
@@ -70,6 +70,10 @@ export function showLegend(place, roles, styles, role) {
     dot.style.color = styles[k].ink;
     return element("div", {}, dot, element("b", { textContent: counts[k] }), element("span", { textContent: name }));
   }));
+  if (!load) return;
+  const box = element("i", { className: "box" });
+  box.style.background = colours[load];
+  place.append(element("div", {}, box, element("b", { textContent: loaded }), element("span", { textContent: `with ${load}` })));
 }
 
 export function showMarks(canvas, events, last, frontier, colours) {

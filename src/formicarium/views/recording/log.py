@@ -97,7 +97,7 @@ def joined_frames(strips: list[Frames], identity: np.ndarray, head: Mapping[str,
     """Return strips of frames as one."""
     if not strips:
         places, small = np.zeros((0, len(identity)), "f4"), np.zeros((0, len(identity)), "i1")
-        lit = np.zeros((0, len(head["scene"]["polygons"]) - 1), "i1")
+        lit = np.zeros((0, len(scene_from(head["scene"]).devices)), "i1")
         return Frames(np.zeros(0, "i8"), places, places, places, small, small, lit, identity, small, small.astype("i2"))
     columns = {
         name: identity if name == "identity" else np.concatenate([getattr(strip, name) for strip in strips])
