@@ -185,8 +185,8 @@ class Compiled:
 
 
 def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
-    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
-    dispatcher = numba.njit(**options, **more)(function)
+    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True, **more}
+    dispatcher = numba.njit(**options)(function)
     if Path(function.__code__.co_filename).is_file():
         dispatcher._cache = SharedCache(function, kind)
     return dispatcher

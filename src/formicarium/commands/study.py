@@ -15,9 +15,9 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
 Figure = Literal[
-    *("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options"),
-    *("table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "table-2-time", "table-2-travel", "all"),
-]
+    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
+    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "table-2-time", "table-2-travel", "all",
+]  # fmt: skip
 
 
 def study(

@@ -7,11 +7,11 @@ change them.
 import statistics
 from collections.abc import Mapping, Sequence
 from functools import partial
+from importlib.metadata import version
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from formicarium import __version__
 from formicarium.campaigns.cells import Job, cells_of
 from formicarium.campaigns.configuration import Configuration
 from formicarium.campaigns.design import Design, make_design
@@ -66,7 +66,7 @@ def jobs_of(objective: Objective, runs: int | None) -> list[Job]:
     jobs = []
     for cell in cells_of(design_of(objective, runs)):
         parameters = {**cell.said, "objective": objective, "reach": "printed", "first_hop": "free", "limit_s": LIMIT}
-        configuration = Configuration(ROOM, parameters, room_hash(ROOM), __version__)
+        configuration = Configuration(ROOM, parameters, room_hash(ROOM), version("formicarium"))
         function = partial(solve_one, int(cell.said["class"]), float(cell.said["density"]), objective,
                            configuration.sources)  # fmt: skip
         jobs.append(Job(cell, configuration, function))
