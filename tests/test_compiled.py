@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from formicarium.angles import wrapped
-from formicarium.compiled import DECIDING, cache_folder
+from formicarium.compiled import APART, DECIDING, cache_folder
 from formicarium.sources import PACKAGE, own_files
 
 PROGRAM = "import sys; sys.path.insert(0, sys.argv[1]); import caller; print(caller.call(1.0))"
@@ -65,7 +65,7 @@ def test_interpreted_functions_are_plain_functions_and_leave_no_machine_code(rea
 
 
 def test_the_hash_knows_every_source_that_is_compiled():
-    places = [PACKAGE / name for name in DECIDING]
+    places = [PACKAGE / name for name in (*DECIDING, *APART)]
     assert all(place.exists() for place in places)
     for file in PACKAGE.rglob("*.py"):
         if "@compiled" in file.read_text() and PACKAGE / "commands" / "layout" not in file.parents:

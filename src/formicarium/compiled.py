@@ -33,9 +33,11 @@ if not INTERPRETED:  # a robot of flesh, or a debugger, has no use for a compile
 
 # The rooms whose code decides results. Views, commands, campaigns and statistics only look at results.
 DECIDING = (
-    *("compiled.py", "streams.py", "tables.py", "angles.py"),
+    *("compiled.py", "streams.py", "tables.py", "angles.py", "connectivity", "studies/estimators.py"),
     *("physics", "robots", "devices", "control", "observers", "trial", "systems"),
 )
+# Rooms with compiled code that no trial depends on: an edit there leaves the identity of trials alone.
+APART = ("scheduling",)
 
 
 def _python_files(place: Path) -> list[Path]:
@@ -48,8 +50,18 @@ def source_hash() -> str:
 
     Part of a run's identity (law 8 of the house).
     """
+    return _hash_of(*DECIDING)
+
+
+@functools.cache
+def room_hash(room: str) -> str:
+    """Hash of the sources of a room in ``APART``: 16 hexadecimal digits."""
+    return _hash_of("compiled.py", "streams.py", room)
+
+
+def _hash_of(*names: str) -> str:
     digest = hashlib.blake2b(digest_size=8)
-    for name in DECIDING:
+    for name in names:
         for file in _python_files(PACKAGE / name):
             digest.update(file.name.encode())
             digest.update(file.read_bytes())
@@ -57,13 +69,16 @@ def source_hash() -> str:
 
 
 def cache_folder(*modules: tuple[str, str | None]) -> Path:
-    """Where machine code is kept that knows these modules: (file, name of its package) of each."""
+    """Where machine code is kept that knows these modules: (file, its package) of each, the function's own first."""
     own: set[Path] = set()
-    for file, package in modules:
+    package = source_hash()
+    for k, (file, name) in enumerate(modules):
         path = Path(file).resolve()
         if not path.is_relative_to(PACKAGE):
-            own |= set(own_files(path, package))
-    key = hash_of(tuple(sorted(own)), source_hash()) if own else source_hash()
+            own |= set(own_files(path, name))
+        elif k == 0 and path.relative_to(PACKAGE).parts[0] in APART:
+            package = room_hash(path.relative_to(PACKAGE).parts[0])
+    key = hash_of(tuple(sorted(own)), package) if own else package
     root = os.environ.get("FORMICARIUM_CACHE_DIR") or user_cache_dir("formicarium", appauthor=False)
     return Path(root) / f"numba-{numba.__version__}-{key}"
 
@@ -170,8 +185,9 @@ class Compiled:
 
 
 def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
-    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
-    dispatcher = numba.njit(**options, **more)(function)
+    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
+    options |= {"no_cfunc_wrapper": True, **more}
+    dispatcher = numba.njit(**options)(function)
     if Path(function.__code__.co_filename).is_file():
         dispatcher._cache = SharedCache(function, kind)
     return dispatcher

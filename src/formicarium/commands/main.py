@@ -17,6 +17,7 @@ from formicarium.campaigns.errors import CrewError, DesignError, Explained, Futi
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
 from formicarium.commands.check import check
+from formicarium.commands.connectivity import connectivity
 from formicarium.commands.debug import debug
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
@@ -28,10 +29,12 @@ from formicarium.commands.new import new
 from formicarium.commands.onboard import onboard
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
+from formicarium.commands.schedule import schedule
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
 from formicarium.commands.tune import tune
 from formicarium.commands.watch import watch
+from formicarium.scheduling.instance import InstanceError
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
 
@@ -45,6 +48,8 @@ Start here:
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
     formicarium new my-swarm                a system of your own, laid out and working
+    formicarium connectivity FILE           how connected a graph is, and what its nodes can find out
+    formicarium schedule tasks.toml         tasks for a connected swarm, scheduled and proven
 """
 
 app = App(
@@ -71,6 +76,8 @@ app.command(debug)
 app.command(tune)
 app.command(onboard)
 app.command(doctor)
+app.command(connectivity)
+app.command(schedule)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -87,7 +94,7 @@ def exit_code(arguments: Sequence[str]) -> int:
     except CycloptsError as error:
         command = " ".join(["formicarium", *arguments[:1]]) if arguments[:1] != ["--help"] else "formicarium"
         return _say(f"{_plain(error)} See: {command} --help", 2)
-    except (UserError, DesignError, StoreError) as error:
+    except (UserError, DesignError, InstanceError, StoreError) as error:
         return _say(str(error), 2)
     except (CrewError, Explained, Futile) as error:
         return _say(str(error), 1)

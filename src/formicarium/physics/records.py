@@ -63,6 +63,7 @@ SETTINGS = np.dtype(
         ("friction", "f8"),  # coefficient of every body's rim
         ("reach", "f8"),  # m, centre to centre, of the neighbour lists
         ("scenery_reach", "f8"),  # m, from a centre, of the scenery lists
+        ("margin", "f8"),  # m, the grids reach so far beyond the first places and the scenery
         ("mending", "f8"),  # 1/s, speed at which overlap is mended, per metre of it
         ("low_x", "f8"),  # m, corner of the grids
         ("low_y", "f8"),  # m

@@ -56,6 +56,7 @@ ADJUSTABLE = {
     "friction": 0.7,
     "reach": 0.82,
     "scenery_reach": 0.11,
+    "margin": 0.0,
 }
 FIELDS = BODY.names or ()
 TOP_SPEED = 0.6  # m/s, up to which nothing can be missed: twice an e-puck's wheels at their limit
@@ -157,7 +158,7 @@ def make_world(
     xs = np.concatenate([segments.ax, segments.bx, bodies.x])
     ys = np.concatenate([segments.ay, segments.by, bodies.y])
     set_ = chosen[0]
-    margin = 2.0 * set_.scenery_reach
+    margin = max(2.0 * set_.scenery_reach, set_.margin)
     set_.low_x, set_.low_y = xs.min() - margin, ys.min() - margin
     width, height = xs.max() + margin - set_.low_x, ys.max() + margin - set_.low_y
     set_.cell = max(set_.reach, width / MOST_CELLS, height / MOST_CELLS)

@@ -27,6 +27,7 @@ BUILT_IN = {
     "mark-ii3": "formicarium.systems.sequencing.study:MARK_II3",
     "mark-ii4": "formicarium.systems.sequencing.study:MARK_II4",
     "partitioning": "formicarium.systems.partitioning.study:PARTITIONING",
+    "coverage": "formicarium.systems.coverage.study:COVERAGE",
 }
 GROUP = "formicarium.systems"
 

@@ -39,11 +39,17 @@ class Scene(NamedTuple):
     cycle_time: float  # seconds
     ranges: tuple[tuple[str, float], ...] = ()  # names and reaches of the robots' senses, metres, to be drawn
     load: str = ""  # what robots carry ("object"), drawn on who carries; if empty, the carried number is written there
+    number: str = "tasks\ndone so far"  # what the carried number is, for legends
 
     @property
     def devices(self) -> tuple[Polygon, ...]:
         """Everything that is neither wall nor floor, in the order of ``Frames.lit``."""
         return tuple(p for p in self.polygons if p.colour != "wall" and not p.colour.startswith(FLOOR))
+
+    @property
+    def longest_link(self) -> float:
+        """Length up to which a link between two robots is drawn, metres: 18 radii, or the radio's reach if longer."""
+        return max([18 * self.radius, *(reach for name, reach in self.ranges if name == "radio")])
 
 
 class Frames(NamedTuple):

@@ -6,9 +6,9 @@ import numpy as np
 
 from formicarium.physics.records import records
 from formicarium.physics.world import make_bodies
-from formicarium.robots.epuck import Epuck
 from formicarium.robots.records import ROBOT, SILENCE
 from formicarium.streams import generator, stream
+from formicarium.tables import Table
 
 IDENTITIES = 255  # robots carry one byte, 0 means nobody
 PLACING_ATTEMPTS = 20_000
@@ -71,7 +71,7 @@ def random_places(
 
 def make_crew(
     places: np.ndarray,
-    epuck: Epuck,
+    epuck: Table,
     seed: int,
     failure_rate: float,
     cycle_time: float,
@@ -82,7 +82,7 @@ def make_crew(
 
     Args:
         places: (N, 3) x, y, heading.
-        epuck: the robot's table.
+        epuck: the robot's table, with radius, mass, inertia and limits of its drive.
         seed: of the trial.
         failure_rate: deaths per robot and second, 0 for none.
         cycle_time: seconds.

@@ -24,8 +24,8 @@ def has_radio(state: Any) -> bool:
 def packets_of(state: Any) -> np.ndarray:
     """Return who heard whom in the last cycle: (P, 2) columns of receiver and sender, as frames are ordered.
 
-    A robot does not know who sent what it hears, but a viewer can tell: the sender is the robot that says just
-    that in the direction from which it came. Robots without radio hear nobody.
+    Where a message does not name its sender a viewer can tell all the same: it is the robot that says just that in
+    the direction from which it came. Robots without radio hear nobody.
     """
     if not has_radio(state):
         return np.zeros((0, 2), "u2")
@@ -34,6 +34,12 @@ def packets_of(state: Any) -> np.ndarray:
     heard &= robots["alive"][:, None] == 1
     receiver, place = np.nonzero(heard)
     packet = readings["packets"][receiver, place]
+    column = np.empty(len(robots), "i8")
+    column[np.argsort(robots["identity"])] = np.arange(len(robots))
+    if "sender" in (packet.dtype.names or ()):
+        body_of = np.zeros(robots["identity"].max() + 1, "i8")
+        body_of[robots["identity"]] = np.arange(len(robots))
+        return np.stack([column[receiver], column[body_of[packet["sender"]]]], axis=1).astype("u2")
     dx = bodies["x"][None] - bodies["x"][receiver, None]
     dy = bodies["y"][None] - bodies["y"][receiver, None]
     turn = np.arctan2(dy, dx) - bodies["heading"][receiver, None] - packet["bearing"][:, None]
@@ -45,8 +51,6 @@ def packets_of(state: Any) -> np.ndarray:
     cost += np.where(saying, 0.0, WRONG_CONTENT)
     cost[np.arange(len(receiver)), receiver] = math.inf
     sender = cost.argmin(axis=1) if len(receiver) else receiver
-    column = np.empty(len(robots), "i8")
-    column[np.argsort(robots["identity"])] = np.arange(len(robots))
     return np.stack([column[receiver], column[sender]], axis=1).astype("u2")
 
 

@@ -79,7 +79,7 @@ class Overhead:
             return bands(places[chained], 10 * self.scene.radius)
         other = frames.joined[index]
         pairs = np.stack([places, places[other]], axis=1)[other >= 0]
-        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < 18 * self.scene.radius])
+        return list(pairs[np.hypot(*(pairs[:, 0] - pairs[:, 1]).T) < self.scene.longest_link])
 
     def _letter(self, role: int, carried: int):
         text = self.styles[role].letter or (str(carried) if carried and not self.scene.load else "")
@@ -188,7 +188,7 @@ class Overhead:
         for row, (name, style) in enumerate(zip(self.scene.roles, self.styles)):
             self._legend_row(4.6 - 0.42 * row, name, style)
         below = 4.6 - 0.42 * len(self.styles)
-        number = f"brown box: {self.scene.load}" if self.scene.load else "number: tasks\ndone so far"
+        number = f"brown box: {self.scene.load}" if self.scene.load else f"number: {self.scene.number}"
         self.side.text(
             0.05,
             below - 0.05,

@@ -17,6 +17,7 @@ def scene_content(scene: Scene) -> dict[str, Any]:
         "cycle_time": scene.cycle_time,
         "ranges": [list(named) for named in scene.ranges],
         "load": scene.load,
+        "number": scene.number,
     }
 
 
@@ -24,6 +25,5 @@ def scene_from(content: Mapping[str, Any]) -> Scene:
     """Return the scene that was written; scenes of older files have no ranges and no load."""
     polygons = tuple(Polygon(np.array(points, float), colour) for points, colour in content["polygons"])
     ranges = tuple((str(name), float(reach)) for name, reach in content.get("ranges", []))
-    return Scene(
-        polygons, content["radius"], tuple(content["roles"]), content["cycle_time"], ranges, content.get("load", "")
-    )
+    words = {name: str(content[name]) for name in ("load", "number") if name in content}
+    return Scene(polygons, content["radius"], tuple(content["roles"]), content["cycle_time"], ranges, **words)

@@ -42,6 +42,14 @@ _KNOWN = {
     "cache": RoleStyle("#ffb703", "C", INK, False),
     "corridor": RoleStyle("#f4f4f4", "=", INK, False),
     "store": RoleStyle("#8ecae6", "S", INK, False),
+    "master": RoleStyle("#d43ba3", "M", PAPER, False),
+    "waiting": RoleStyle("#f4f4f4", "", INK, False),
+    "flocking": RoleStyle("#8ecae6", "", INK, False),
+    "spiralling": RoleStyle("#ffb703", "", INK, False),
+    "in an arm": RoleStyle("#b5e48c", "", INK, False),
+    "holding": RoleStyle("#2b9348", "", PAPER, False),
+    "lost": RoleStyle("#d6352c", "", PAPER, False),
+    "gathering": RoleStyle("#cdb4db", "", INK, False),
     "dead": RoleStyle("#3d4249", "×", PAPER, False),
 }
 _OTHERS = ("#8ecae6", "#ffb703", "#b5e48c", "#cdb4db", "#f4a582", "#92c5de")

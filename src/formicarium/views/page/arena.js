@@ -281,6 +281,7 @@ export class Arena {
     this.shown = shown;
     const context = this.canvas.getContext("2d"), { x, y, heading } = shown, { role, carried, joined } = frame;
     const radius = this.scene.radius, count = x.length;
+    const longest = Math.max(18 * radius, ...this.scene.ranges.filter(([name]) => name === "radio").map(([, r]) => r));
     this.remember(shown, frame.cycle);
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.drawImage(this.still, 0, 0);
@@ -291,7 +292,7 @@ export class Arena {
       const pairs = [];
       for (let i = 0; i < count; i++) {
         const j = joined[i];
-        if (j >= 0 && Math.hypot(x[i] - x[j], y[i] - y[j]) < 18 * radius) pairs.push([x[i], y[i], x[j], y[j]]);
+        if (j >= 0 && Math.hypot(x[i] - x[j], y[i] - y[j]) < longest) pairs.push([x[i], y[i], x[j], y[j]]);
       }
       this.lines(context, pairs, "#c9a400", 0.5 * radius * this.scale, 0.55);
     }

@@ -1,0 +1,93 @@
+"""One cycle of one robot. It sees its Reading and its Memory and writes its Command and message, and nothing else."""
+
+from formicarium.compiled import compiled
+from formicarium.control.turning import drive_towards
+from formicarium.systems.coverage.arms import choose_arm
+from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
+from formicarium.systems.coverage.flocking import flock
+from formicarium.systems.coverage.forces import clear, press
+from formicarium.systems.coverage.keeping import note_links, restrain_wheels, restrain_wish
+from formicarium.systems.coverage.listening import (
+    carry,
+    count_behind,
+    find_way,
+    hear_phase,
+    hear_reached,
+    stay_master,
+)
+from formicarium.systems.coverage.master import lead
+from formicarium.systems.coverage.memory import Mode, Stage
+from formicarium.systems.coverage.messages import speak
+
+SAFE = 2  # place of "safe" among the variants
+
+
+@compiled
+def decide(reading, memory, command, table, chart, footbot):
+    """Listen, remember, decide, speak.
+
+    Args:
+        reading: READING record, what the robot heard and sensed now.
+        memory: MEMORY record, changed in place.
+        command: COMMAND record with the message, written.
+        table: record of BehaviourTable.
+        chart: CHART record, what it was told before the trial.
+        footbot: record of the robot's own table.
+    """
+    listen(reading, memory, table, chart)
+    if memory.master == 1:
+        lead(reading, memory, command, table, chart, footbot)
+    elif memory.mode == Mode.FLOCK:
+        keep_up(reading, memory, command, table, footbot)
+    elif memory.mode == Mode.ERUPT:
+        erupt(reading, memory, command, table, chart, footbot)
+    elif memory.mode == Mode.HOLD:
+        memory.stage = Stage.HOLDING
+        clear(command)
+    elif memory.mode == Mode.GATHER:
+        memory.stage = Stage.GATHERING
+        press(reading, memory, command, table, memory.spacing, 0, footbot.speed)
+    else:
+        memory.stage = Stage.WAITING
+        clear(command)
+    drive(reading, memory, command, table, chart, footbot)
+    command.colour = memory.arm
+    speak(reading, memory, command, footbot.message_bytes)
+
+
+@compiled
+def listen(reading, memory, table, chart):
+    """Take in what was heard: the phase, the way to the master, the arms, the reference, and word of reached tasks."""
+    carry(reading, memory)
+    hear_phase(reading, memory)
+    if memory.master == 1:
+        stay_master(memory, reading.cycle)
+    else:
+        find_way(reading, memory, table, chart)
+        choose_arm(reading, memory, table)
+        find_reference(reading, memory)
+        take_directions(reading, memory, table)
+    count_behind(reading, memory)
+    hear_reached(reading, memory, table)
+
+
+@compiled
+def keep_up(reading, memory, command, table, footbot):
+    """Flock, unless there is no way to the master any more."""
+    if memory.linked == 1:
+        memory.stage = Stage.FLOCKING
+        flock(reading, memory, command, table, footbot.speed)
+    else:
+        be_lost(reading, memory, command, table, footbot)
+
+
+@compiled
+def drive(reading, memory, command, table, chart, footbot):
+    """Make wheel speeds of the wanted velocity; the safe variant shortens both."""
+    limit = table.safe_share * footbot.radio_range
+    if table.variant == SAFE:
+        note_links(reading, memory, table, limit)
+        restrain_wish(memory, command, footbot, limit, reading.cycle, chart.cycle_time)
+    memory.turning = drive_towards(command, memory.turning, footbot.speed)
+    if table.variant == SAFE:
+        restrain_wheels(memory, command, footbot, limit, reading.cycle, chart.cycle_time)

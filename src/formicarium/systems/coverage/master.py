@@ -1,0 +1,135 @@
+"""The master: calls out the phases, knows the tasks in the frame in which it started, and corrects the arms."""
+
+import math
+
+from formicarium.angles import wrapped
+from formicarium.compiled import compiled
+from formicarium.systems.coverage.forces import clear, wish
+from formicarium.systems.coverage.memory import Mode, Stage
+
+QUOTA = 1  # place of "quota" among the choices
+TOUR = 1  # place of "tour" among the programmes
+
+
+@compiled
+def call_out(memory, mode, spacing, cycle):
+    """Begin a phase; the word of it spreads by itself."""
+    memory.epoch += 1
+    memory.mode = mode
+    memory.spacing = spacing
+    memory.since = cycle
+
+
+@compiled
+def lead(reading, memory, command, table, chart, footbot):
+    """Do the master's part in the present phase, and go on to the next when its time has come."""
+    cycle = reading.cycle
+    clear(command)
+    if memory.counted == chart.robots:
+        memory.all_heard = cycle
+    if memory.epoch == 0:
+        flocks = chart.programme == TOUR and chart.travel == 1
+        call_out(memory, Mode.FLOCK if flocks else Mode.ERUPT, table.spacing, cycle)
+    elif memory.mode == Mode.FLOCK:
+        if travel(reading, memory, command, table, chart, footbot):
+            call_out(memory, Mode.ERUPT, table.spacing, cycle)
+    elif memory.mode == Mode.ERUPT:
+        if chart.programme == TOUR and (all_reached(memory) or cycle - memory.since > chart.erupt_cycles):
+            call_out(memory, Mode.HOLD, table.spacing, cycle)
+    elif memory.mode == Mode.HOLD:
+        if all_reached(memory):
+            memory.held += 1
+        if memory.held >= chart.hold_cycles or cycle - memory.since > chart.erupt_cycles:
+            call_out(memory, Mode.GATHER, table.gather_spacing, cycle)
+    elif memory.mode == Mode.GATHER:
+        if is_compact(memory, table, chart) or cycle - memory.since > chart.gather_cycles:
+            memory.done = 1
+    memory.stage = Stage.FLOCKING if memory.mode == Mode.FLOCK else Stage.WAITING
+    if memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
+        point_out(memory, chart)
+    if memory.mode == Mode.ERUPT and table.arm_choice == QUOTA:
+        correct_arms(memory, table, chart, cycle)
+
+
+@compiled
+def point_out(memory, chart):
+    """Work out where the tasks are by one's own odometry."""
+    if memory.arm_count == 0:
+        memory.round += 1
+    memory.arm_count = chart.task_count
+    for k in range(chart.task_count):
+        ahead = chart.task_ahead[k] - memory.way_ahead
+        aside = chart.task_aside[k] - memory.way_aside
+        memory.arms[k].known = 1
+        memory.arms[k].direction = wrapped(math.atan2(aside, ahead) - memory.facing)
+        if memory.round == 1:
+            memory.arms[k].weight = chart.wanted[k]
+
+
+@compiled
+def travel(reading, memory, command, table, chart, footbot):
+    """Go to the point of deployment and wait for stragglers on the way; tell whether it is reached with everybody."""
+    ahead = chart.point_ahead - memory.way_ahead
+    aside = chart.point_aside - memory.way_aside
+    together = memory.farthest <= table.compact_range and reading.cycle - memory.all_heard <= table.keep_cycles
+    if ahead * ahead + aside * aside <= table.arrival_range * table.arrival_range:
+        return is_compact(memory, table, chart) or reading.cycle - memory.since > chart.erupt_cycles
+    if together:
+        wish(command, wrapped(math.atan2(aside, ahead) - memory.facing), table.leader_share * footbot.speed)
+    return False
+
+
+@compiled
+def is_compact(memory, table, chart):
+    """Tell whether everybody reports a short way."""
+    return memory.counted == chart.robots and memory.farthest <= table.compact_range
+
+
+@compiled
+def all_reached(memory):
+    """Tell whether there is fresh word from every task."""
+    for k in range(memory.arm_count):
+        if memory.arms[k].reached == 0:
+            return False
+    return memory.arm_count > 0
+
+
+@compiled
+def quota(chart, k):
+    """Return how many backbone robots arm k should have: shares of the weights, the rest to the first arms."""
+    total = 0.0
+    for arm in range(chart.task_count):
+        total += chart.wanted[arm]
+    crew = chart.robots - 1
+    given = 0
+    for arm in range(chart.task_count):
+        given += int(crew * chart.wanted[arm] / total)
+    own = int(crew * chart.wanted[k] / total)
+    return own + 1 if k < crew - given else own
+
+
+@compiled
+def correct_arms(memory, table, chart, cycle):
+    """Ask some robots of arms that are too strong to draw again among those that are too weak.
+
+    Only when everybody is counted and has an arm, and not later than ``correction_limit`` into the eruption.
+    """
+    if cycle - memory.since > chart.correction_limit or cycle - memory.corrected < table.correction_cycles:
+        return
+    total = 0
+    for k in range(memory.arm_count):
+        total += memory.arms[k].count
+    if total != chart.robots - 1:
+        return
+    wrong = False
+    for k in range(memory.arm_count):
+        wrong = wrong or memory.arms[k].count != quota(chart, k)
+    if not wrong:
+        return
+    memory.corrected = cycle
+    memory.round += 1
+    for k in range(memory.arm_count):
+        arm = memory.arms[k]
+        surplus = arm.count - quota(chart, k)
+        arm.weight = max(0.0, -1.0 * surplus)
+        arm.leave = max(0.0, surplus / max(1.0, 1.0 * arm.count))

@@ -1,0 +1,118 @@
+"""What one robot of the coverage system remembers."""
+
+from enum import IntEnum
+
+import numpy as np
+
+from formicarium.robots.footbot import ARM, ARMS
+
+NEVER = -1_000_000  # cycle long before the trial
+LINKS = 32  # links that a robot can keep at once (safe)
+
+
+class Mode(IntEnum):
+    """The phases that the master calls out; an epoch is one call."""
+
+    WAIT = 0  # nothing heard yet
+    FLOCK = 1
+    ERUPT = 2
+    HOLD = 3
+    GATHER = 4
+
+
+class Stage(IntEnum):
+    """What a robot is at."""
+
+    WAITING = 0
+    FLOCKING = 1
+    SPIRALLING = 2  # towards its arm
+    ALIGNED = 3  # in its arm, under the potential alone
+    BLIND = 4  # its reference was not heard just now
+    LOST = 5  # it has no reference, or no way to the master
+    HOLDING = 6
+    GATHERING = 7
+
+
+# A neighbour whose link must not break (safe).
+LINK = np.dtype(
+    [
+        ("who", "i8"),  # number of the neighbour, 0: no link here
+        ("heard", "i8"),  # cycle
+        ("before", "f8"),  # m, where it is: ahead,
+        ("beside", "f8"),  # m, and aside
+    ],
+    align=True,
+)
+
+MEMORY = np.dtype(
+    [
+        ("draws", "u8"),  # the robot's own random stream
+        ("master", "i8"),  # 1 for the master
+        ("sequence", "i8"),  # of its messages
+        ("stage", "i8"),
+        # what the master called out, as far as it has come here
+        ("epoch", "i8"),
+        ("mode", "i8"),
+        ("spacing", "f8"),  # m
+        ("since", "i8"),  # cycle at which it was heard
+        ("round", "i8"),  # newest word on the arms
+        ("drawn", "i8"),  # the round in which the robot last thought about its arm
+        ("arm_count", "i8"),
+        ("arms", ARM, ARMS),
+        ("arm", "i8"),  # its own, 0: none yet
+        # the way to the master
+        ("linked", "i8"),
+        ("gradient", "f8"),  # m
+        ("hops", "i8"),
+        ("parent", "i8"),
+        ("parent_heard", "i8"),  # cycle
+        ("linked_at", "i8"),  # cycle at which it last had a way
+        ("farthest", "f8"),  # m
+        ("counted", "i8"),
+        # the robot it aligns with
+        ("reference", "i8"),  # number, 0: none
+        ("reference_place", "i8"),  # in the reading's packets, -1: not heard just now
+        ("reference_heard", "i8"),  # cycle
+        ("way_back", "f8"),  # rad, where it last was
+        ("offset", "f8"),  # rad, phi: how far off the arm's line, as the reference sees it
+        ("aligned", "i8"),
+        ("flips", "i8"),  # how often that has changed
+        ("spiral", "f8"),  # rad, how the present spiral opens
+        ("turning", "i8"),  # Turning of the wheels
+        # where it is by its own odometry, from where it started
+        ("way_ahead", "f8"),  # m
+        ("way_aside", "f8"),  # m
+        ("facing", "f8"),  # rad
+        # links to be kept (safe)
+        ("anchor", "i8"),  # number of the neighbour upstream
+        ("links", LINK, LINKS),
+        # the master's own
+        ("corrected", "i8"),  # cycle of the last correction of the arms
+        ("held", "i8"),  # cycles for which all tasks were held
+        ("all_heard", "i8"),  # cycle at which everybody was last counted
+        ("done", "i8"),  # 1 when the programme is over
+    ],
+    align=True,
+)
+
+# What a robot is told before the trial. Only the master is told of tasks: by way, in the frame in which it starts.
+CHART = np.dtype(
+    [
+        ("robots", "i8"),
+        ("programme", "i8"),
+        ("task_count", "i8"),
+        ("task_ahead", "f8", ARMS),  # m
+        ("task_aside", "f8", ARMS),
+        ("wanted", "f8", ARMS),  # weight of each arm
+        ("point_ahead", "f8"),  # m, point of deployment
+        ("point_aside", "f8"),
+        ("travel", "i8"),  # 1 if the point is elsewhere
+        ("stop", "i8"),
+        ("hold_cycles", "i8"),
+        ("erupt_cycles", "i8"),
+        ("gather_cycles", "i8"),
+        ("correction_limit", "i8"),  # cycles
+        ("cycle_time", "f8"),
+    ],
+    align=True,
+)
