@@ -3,12 +3,12 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from formicarium.angles import wrapped
-from formicarium.compiled import DECIDING, PACKAGE, cache_folder, source_hash
+from formicarium.compiled import APART, DECIDING, cache_folder
+from formicarium.sources import PACKAGE, own_files
 
 PROGRAM = "import sys; sys.path.insert(0, sys.argv[1]); import caller; print(caller.call(1.0))"
 
@@ -65,39 +65,83 @@ def test_interpreted_functions_are_plain_functions_and_leave_no_machine_code(rea
 
 
 def test_the_hash_knows_every_source_that_is_compiled():
-    places = [PACKAGE / name for name in DECIDING]
+    places = [PACKAGE / name for name in (*DECIDING, *APART)]
     assert all(place.exists() for place in places)
     for file in PACKAGE.rglob("*.py"):
-        if "@compiled" in file.read_text():
+        if "@compiled" in file.read_text() and PACKAGE / "commands" / "layout" not in file.parents:
             assert any(file == place or place in file.parents for place in places), file
 
 
-def test_the_hash_changes_with_a_readers_sources_and_only_then(tmp_path):
-    def hashed():
-        source_hash.cache_clear()
-        return source_hash(tmp_path)
+def test_the_folder_changes_with_a_readers_sources_and_only_then(tmp_path):
+    def folder(name="a.py"):
+        own_files.cache_clear()
+        return cache_folder((str(tmp_path / name), ""))
 
-    (tmp_path / "a.py").write_text("x = 1\n")
-    first = hashed()
-    assert hashed() == first and len(first) == 16
-    (tmp_path / "notes.txt").write_text("nothing to do with it")
-    assert hashed() == first
-    (tmp_path / "a.py").write_text("x = 2\n")
-    second = hashed()
-    (tmp_path / "a.py").rename(tmp_path / "b.py")
-    assert len({first, second, hashed()}) == 3
+    (tmp_path / "a.py").write_text("import b\n")
+    (tmp_path / "b.py").write_text("x = 1\n")
+    first = folder()
+    assert folder() == first and first.name.startswith("numba-")
+    (tmp_path / "drawing.py").write_text("import a\n")
+    assert folder() == first
+    (tmp_path / "b.py").write_text("x = 2\n")
+    second = folder()
+    (tmp_path / "a.py").rename(tmp_path / "c.py")
+    assert len({first, second, folder("c.py")}) == 3
 
 
 def test_a_readers_machine_code_is_kept_apart_from_the_packages(tmp_path):
     (tmp_path / "own.py").write_text("")
-    own, package = cache_folder(str(tmp_path / "own.py")), cache_folder(str(PACKAGE / "angles.py"))
+    own, package = (
+        cache_folder((str(tmp_path / "own.py"), "")),
+        cache_folder((str(PACKAGE / "angles.py"), "formicarium")),
+    )
     assert own != package
-    assert cache_folder(str(PACKAGE / "physics" / "step.py")) == package
-    assert Path(package).name.startswith("numba-")
+    assert cache_folder((str(PACKAGE / "physics" / "step.py"), "formicarium.physics")) == package
+
+
+EDITED = (
+    "swarm/inner/called.py",
+    "swarm/beside.py",
+    "swarm/numbers.py",
+    "elsewhere.py",
+    "library/deep/inside.py",
+)
+ONE = "from formicarium.compiled import compiled\n\n\n@compiled\ndef {name}():\n    return 1.0\n"
+
+
+def test_no_edit_of_any_file_of_a_reader_is_masked(tmp_path):
+    """Called functions and numbers: in the same folder, above it, in a file and in a package elsewhere."""
+    own = tmp_path / "own"
+    for folder in ("swarm/inner", "library/deep"):
+        (own / folder).mkdir(parents=True)
+        for part in (own / folder, (own / folder).parent):
+            (part / "__init__.py").touch()
+    (own / "swarm/inner/called.py").write_text(ONE.format(name="called"))
+    (own / "swarm/beside.py").write_text(ONE.format(name="beside"))
+    (own / "swarm/numbers.py").write_text("NUMBER = 1.0\n")
+    (own / "elsewhere.py").write_text(ONE.format(name="elsewhere"))
+    (own / "library/deep/inside.py").write_text(ONE.format(name="inside"))
+    (own / "swarm/inner/caller.py").write_text(
+        "from elsewhere import elsewhere\nfrom formicarium.compiled import compiled\n"
+        "from library.deep.inside import inside\nfrom swarm.beside import beside\n"
+        "from swarm.inner.called import called\nfrom ..numbers import NUMBER\n\n\n"
+        "@compiled\ndef call():\n    return called() + beside() + NUMBER + elsewhere() + inside()\n"
+    )
+    program = "import sys; sys.path.insert(0, sys.argv[1]); from swarm.inner import caller; print(caller.call())"
+    place = {"cache": tmp_path / "cache", "PYTHONDONTWRITEBYTECODE": "1"}  # Python's own cache trusts dates
+    assert python(program, own, **place) == "5.0"
+    kept = machine_code(tmp_path / "cache")
+    assert python(program, own, **place) == "5.0" and machine_code(tmp_path / "cache") == kept
+    for count, edited in enumerate(EDITED, 1):
+        file = own / edited
+        times = file.stat()
+        file.write_text(file.read_text().replace("1.0", "8.0"))
+        os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))  # a copy or an archive may bring an old date
+        assert python(program, own, **place) == str(5.0 + 7.0 * count), edited
 
 
 def test_compiled_arithmetic_is_strict():
-    options = getattr(wrapped, "targetoptions", None)
+    options = getattr(getattr(wrapped, "inner", None), "targetoptions", None)
     if options is None:
         pytest.skip("running interpreted")
     assert not options["fastmath"] and options["error_model"] == "numpy"
@@ -121,9 +165,6 @@ print(speaks(records(COMMAND, 1)[0]))
 """
 
 
-@pytest.mark.xfail(
-    strict=True, reason="numba unpickles the signatures of all its callers, also of modules that are gone"
-)
 def test_a_readers_state_does_not_spoil_the_packages_machine_code_for_others(tmp_path):
     """A reader's system hands its own NamedTuple to the package's phases; then somebody else, without it, runs."""
     own = tmp_path / "own"

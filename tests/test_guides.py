@@ -82,3 +82,26 @@ def test_the_guide_to_watching_is_true(tmp_path, monkeypatch):
     assert len(shown) == 2
     names = {file.name for file in tmp_path.iterdir()}
     assert names >= {"seven.mp4", "seven.svg", "seven.html", "seed-7.mcap", "trajectories-seed-7.csv"}
+
+
+def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "guides" / "connectivity.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+    results = tmp_path / "formicarium-results"
+    assert (results / "connectivity-swarm" / "errors.csv").exists()
+    assert (results / "connectivity-seven" / "lambda2.png").exists()
+
+
+def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("highspy")
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "guides" / "scheduling.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+    assert {file.name for file in (tmp_path / "rescue").iterdir()} == {"schedule.json", "map.png", "gantt.png"}

@@ -8,6 +8,7 @@ import pytest
 from formicarium.commands import foraging
 from formicarium.commands.main import exit_code
 from formicarium.studies.foraging import TIMES
+from formicarium.studies.foraging_anova import GRID
 from formicarium.systems.partitioning.parameters import INTERFACING_TIMES
 
 
@@ -30,10 +31,11 @@ def test_the_designs_are_the_papers():
     factors = design("partitioning-performance")["factors"]
     assert tuple(factors["cache.interfacing_time"]) == INTERFACING_TIMES == TIMES
     assert design("partitioning-scalability")["factors"]["swarm.robots"] == [4, 6, 8, 10, 14, 18, 22, 26, 30]
-    cells = 1
-    for values in design("partitioning-anova")["factors"].values():
-        cells *= len(values)
-    assert cells == 243
+    anova = design("partitioning-anova")
+    assert {name: tuple(levels) for name, levels in anova["factors"].items()} == {
+        name: levels for name, (_, levels) in GRID.items()
+    }
+    assert anova["replicates"] == 15 and "rows" not in anova and "set" not in anova
 
 
 def test_a_figure_is_run_and_drawn(tmp_path, capsys):
@@ -47,4 +49,11 @@ def test_a_figure_is_run_and_drawn(tmp_path, capsys):
 
 def test_a_figure_of_the_other_study_is_refused(capsys):
     assert exit_code(["study", "partitioning", "--figure", "S18"]) == 2
-    assert "the study partitioning has 7, 8" in capsys.readouterr().err
+    assert "the study partitioning has 3, 4" in capsys.readouterr().err
+
+
+def test_figures_of_the_implementation_need_no_run(tmp_path, capsys):
+    for figure in ("3", "4", "5", "6"):
+        assert exit_code(["study", "partitioning", "--figure", figure, "--out", "here"]) == 0
+        assert f"figure-{figure}.png" in capsys.readouterr().out
+    assert sorted(path.name for path in (tmp_path / "here").iterdir()) == [f"figure-{k}.png" for k in (3, 4, 5, 6)]

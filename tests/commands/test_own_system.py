@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from formicarium.commands.sources import own_files
+from formicarium.sources import own_files
 
 TESTS = Path(__file__).parents[1]
 DESIGN = """

@@ -6,6 +6,7 @@ import shutil
 import socket
 import struct
 import subprocess
+import sysconfig
 from pathlib import Path
 
 import numpy as np
@@ -185,9 +186,12 @@ def test_an_mcap_file_holds_poses_points_scene_numbers_and_events(folder, tmp_pa
 
 
 @pytest.mark.long
-def test_rerun_opens_the_mcap_file(folder, tmp_path):
-    assert exit_code(["export", recording(folder, 5), "--to", "mcap", "--out", str(tmp_path)]) == 0
-    rrd, rerun = tmp_path / "a.rrd", shutil.which("rerun")
+@pytest.mark.parametrize("system", ["mark-i3", "partitioning"])
+def test_rerun_opens_the_mcap_file(tmp_path, system):
+    run = ["run", system, "--seed", "5", "--record", "--set", "time_cap=120", "--out", str(tmp_path / "run")]
+    assert exit_code([*run, "--workers", "1"]) == 0
+    assert exit_code(["export", str(tmp_path / "run"), "--to", "mcap", "--out", str(tmp_path)]) == 0
+    rrd, rerun = tmp_path / "a.rrd", shutil.which("rerun", path=sysconfig.get_path("scripts"))
     assert rerun, 'this test needs Rerun: python -m pip install -e ".[rerun]"'
     subprocess.run([rerun, "mcap", "convert", str(tmp_path / "seed-5.mcap"), "-o", str(rrd)], check=True)
     printed = subprocess.run([rerun, "rrd", "print", "-vv", str(rrd)], check=True, capture_output=True, text=True)
@@ -230,13 +234,14 @@ def test_a_taken_port_is_said(tmp_path, capsys):
         (["movie", "X", "--every", "0"], "--every 0: must be a time"),
         (["watch", "mark-i3", "--speed", "-1"], "--speed -1"),
         (["watch", "mark-i3", "--port", "70000"], "--port 70000"),
-        (["watch", "mark-i4"], "unknown system"),
+        (["watch", "mark-i5"], "unknown system"),
         (["watch", "random_walk:RANDOM_WALK"], "cannot be watched"),
         (["run", "random_walk:RANDOM_WALK", "--record"], "does not say how it is shown"),
     ],
 )
 def test_what_cannot_be_done_is_said(words, said, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("formicarium.commands.showing.show", lambda *_: 0)  # or what is served would never end
     assert exit_code(words) == 2
     assert said in capsys.readouterr().err
 

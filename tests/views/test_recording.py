@@ -158,5 +158,6 @@ print(session.cycle, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
     path = tmp_path / "long.recording"
     done = subprocess.run([sys.executable, "-c", program, str(path)], capture_output=True, text=True, check=True)
     cycle, megabytes = map(float, done.stdout.split())
+    print(f"{cycle:.0f} cycles, {megabytes:.0f} MB of memory, {path.stat().st_size / 1e6:.1f} MB recorded")
     assert cycle == 1_000_000 and megabytes < 500
     assert path.stat().st_size / (cycle / 36_000) < 2e6

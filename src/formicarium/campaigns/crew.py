@@ -6,7 +6,7 @@ import traceback
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
-from formicarium.campaigns.errors import Futile
+from formicarium.campaigns.errors import Explained, Futile
 from formicarium.campaigns.result import Ending, Finished, Function, Watch, checked
 
 
@@ -54,6 +54,8 @@ def attempt(
         result, failure, ending = checked(function(task.seed, watch)), "", Ending.DONE
     except Futile:
         raise
+    except Explained as reason:
+        result, failure, ending = None, str(reason), Ending.FAILED
     except Exception:
         result, failure, ending = None, traceback.format_exc(), Ending.FAILED
     return Finished(task.seed, result, failure, time.perf_counter() - started, worker, ending, task.identity)

@@ -40,8 +40,19 @@ def _toml(path: Path) -> Any:
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
+class _YamlLoader(yaml.SafeLoader):
+    """YAML in which a key that is said twice is an error, as in TOML; PyYAML would drop the first in silence."""
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
+        keys = [key.value for key, _ in node.value]
+        twice = [key for key in keys if keys.count(key) > 1]
+        if twice:
+            raise yaml.MarkedYAMLError(problem=f"{twice[0]!r} is there more than once", problem_mark=node.start_mark)
+        return super().construct_mapping(node, deep)
+
+
 def _yaml(path: Path) -> Any:
-    return yaml.safe_load(path.read_text(encoding="utf-8"))
+    return yaml.load(path.read_text(encoding="utf-8"), _YamlLoader)
 
 
 def _python(path: Path) -> Any:
@@ -49,7 +60,7 @@ def _python(path: Path) -> Any:
         found = runpy.run_path(str(path))
     except OSError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a script that exits must not end the command as if all were done
         raise DesignError(f"{path}: {type(error).__name__}: {error}") from error
     if "DESIGN" not in found:
         raise DesignError(f"{path}: sets no DESIGN")

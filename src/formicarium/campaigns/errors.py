@@ -9,5 +9,9 @@ class Futile(Exception):
     """Raised by a function when no further run can succeed: the campaign stops instead of failing run by run."""
 
 
+class Explained(Exception):
+    """A run has failed for a reason that the message says in full: no traceback is shown."""
+
+
 class CrewError(Exception):
     """Workers cannot be had, or are gone; what was kept before stays."""

@@ -4,7 +4,12 @@ from importlib.util import find_spec
 
 from formicarium.commands.errors import UserError
 
-MODULES = {"watch": ("starlette", "uvicorn", "websockets"), "movie": ("imageio_ffmpeg",), "mcap": ("foxglove",)}
+MODULES = {
+    "watch": ("starlette", "uvicorn", "websockets"),
+    "movie": ("imageio_ffmpeg",),
+    "mcap": ("foxglove",),
+    "scheduling": ("highspy",),
+}
 
 
 def require(extra: str, purpose: str) -> None:

@@ -13,6 +13,7 @@ from formicarium.commands.runs import Run, find_run
 from formicarium.commands.work import RECORDED_EVERY
 from formicarium.trial.record import Frames
 from formicarium.views.recording.log import sliced
+from formicarium.views.sentences import lines, teller
 
 MOVIES = (".mp4", ".gif", ".webm")
 STILLS = (".png", ".svg")
@@ -46,7 +47,8 @@ def make_movie(place: str, seed: int | None, out: Path | None, every: float | No
     if kind == ".html":
         from formicarium.views.single_file import write_single_file
 
-        return write_single_file(path, run.scene, frames, listed_events(run), run.interventions, run.title)
+        events = lines(run.events, run.system.kinds, teller(run.system, run.system.kinds))
+        return write_single_file(path, run.scene, frames, events, run.interventions, run.title)
     from rich.console import Console
 
     from formicarium.commands.progress import Progress
@@ -89,21 +91,6 @@ def thinned(frames: Frames, every: float | None, cycle_time: float) -> Frames:
     return sliced(frames, slice(None, None, max(1, round(every / apart))))
 
 
-def sentences_of(run: Run) -> list[str]:
-    """Return a sentence for every event of a run."""
-    tell = run.system.watching.tell if run.system.watching else lambda event: run.system.kinds[int(event["kind"])]
-    return [tell(event) for event in run.events]
-
-
-def listed_events(run: Run) -> list[tuple[int, str, int, str]]:
-    """Return the events as a page lists them."""
-    kinds = run.system.kinds
-    return [
-        (int(event["cycle"]), kinds[int(event["kind"])], int(event["robot"]), sentence)
-        for event, sentence in zip(run.events, sentences_of(run), strict=True)
-    ]
-
-
 def export_run(place: str, seed: int | None, to: str, folder: Path) -> list[Path]:
     """Write a run in an open format; return the paths.
 
@@ -114,7 +101,8 @@ def export_run(place: str, seed: int | None, to: str, folder: Path) -> list[Path
     if to == "mcap":
         require("mcap", "an export as mcap")
     run = find_run(place, seed)
-    frames, sentences = frames_of_run(run), sentences_of(run)
+    frames, tell = frames_of_run(run), teller(run.system, run.system.kinds)
+    sentences = [tell(event) for event in run.events]
     if to == "mcap":
         from formicarium.views.mcap import write_mcap
 

@@ -3,6 +3,7 @@
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
 from formicarium.campaigns import table
@@ -13,6 +14,8 @@ from formicarium.commands.campaign.answers import write_csv
 from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
+from formicarium.commands.tables import events_of
+from formicarium.studies import foraging_anova, foraging_options
 from formicarium.studies.foraging import Row, cells_of, consistent
 from formicarium.studies.foraging_claims import Runs, claims
 from formicarium.studies.foraging_figures import (
@@ -21,22 +24,28 @@ from formicarium.studies.foraging_figures import (
     figure_9,
     figure_10,
     figure_11,
+    figure_anova,
     figure_giving_up,
 )
+from formicarium.studies.foraging_options import figure_options
 
 PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
 SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
-PATIENT = "partitioning-patient"
+PATIENT, ANOVA, OPTIONS = "partitioning-patient", "partitioning-anova", "partitioning-options"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
-ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT)
+ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
+DRAWN = ("3", "4", "5", "6")  # from the implementation, without a run
 DESIGNS = {
+    **dict.fromkeys(DRAWN, ()),
     "7": (PERFORMANCE,),
     "8": (PERFORMANCE,),
     "9": (PERFORMANCE,),
     "10": (ADAPTIVITY,),
     "11": (SCALABILITY,),
     "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
+    "anova": (ANOVA,),
+    "options": (OPTIONS,),
     "all": ALL,
 }
 FIGURES = {
@@ -46,13 +55,15 @@ FIGURES = {
     "10": (figure_10, ADAPTIVITY),
     "11": (figure_11, SCALABILITY),
     "giving-up": (figure_giving_up, GIVING_UP),
+    "anova": (figure_anova, ANOVA),
+    "options": (figure_options, OPTIONS),
 }
 
 
 def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
     """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
     studies = [_open(name, folder, Overrides(runs)) for name in DESIGNS[figure]]
-    return max(perform(study, Request(workers=workers)) for study in studies)
+    return max((perform(study, Request(workers=workers)) for study in studies), default=0)
 
 
 def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
@@ -64,13 +75,16 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     """
     from formicarium.views.charts import draw_chart
 
+    if figure in DRAWN:
+        Console().print(f"results   {draw_implementation(figure, folder)}", highlight=False, soft_wrap=True)
+        return 0
     studies = {name: _open(name, folder, Overrides(runs, sources=sources)) for name in DESIGNS[figure]}
     rows = {name: _rows(study) for name, study in studies.items()}
     there = sum(map(len, rows.values()))
     if not there:
         raise UserError(f"{folder}: no run of this study is there in {' or '.join(studies)}. Run it first.")
-    wanted = list(FIGURES) if figure == "all" else [figure]
-    written = []
+    wanted = [name for name in FIGURES if FIGURES[name][1] in rows] if figure == "all" else [figure]
+    written = [draw_implementation(name, folder) for name in DRAWN] if figure == "all" else []
     for name in wanted:
         draw, campaign = FIGURES[name]
         if rows[campaign]:
@@ -80,6 +94,10 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
             path = folder / f"{name}.csv"
             write_csv(table.from_rows(cells_of(found, _factors(studies[name]))), path)
             written.append(path)
+    if rows.get(ANOVA):
+        written += _write_anova(rows[ANOVA], folder)
+    if rows.get(OPTIONS):
+        written.append(_write_options(studies[OPTIONS], rows[OPTIONS], folder))
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -92,9 +110,35 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     return 0 if there == total else 1
 
 
+def _write_options(study: Study, rows: list[Row], folder: Path) -> Path:
+    """Write what the options bring; their event logs are beside the rows."""
+    ledger = Ledger(study.folder)
+    keys = {(job.cell.number, key[1]): key for job in study.jobs for key in job.keys}
+
+    def log(row: Row) -> np.ndarray:
+        return events_of(table.read(ledger.table_path("events", keys[row["cell"], row["seed"]])), study.system.kinds)
+
+    path = folder / "options.md"
+    with replacing(path) as temporary:
+        temporary.write_text("\n".join(foraging_options.section(rows, log)) + "\n", encoding="utf-8")
+    return path
+
+
+def draw_implementation(figure: str, folder: Path) -> Path:
+    """Draw the state machine, an array of booths, a pair of the cache or the arena; return the path."""
+    from formicarium.studies.foraging_machine import machine
+    from formicarium.studies.foraging_plans import figure_4, figure_5, figure_6
+    from formicarium.views.diagrams import draw_machine, draw_plans
+
+    path = folder / f"figure-{figure}.png"
+    if figure == "3":
+        return draw_machine(machine(), path)
+    return draw_plans({"4": figure_4, "5": figure_5, "6": figure_6}[figure](), path)
+
+
 def report(rows: dict[str, list[Row]]) -> str:
     """Return in Markdown what the paper says, or what follows from it, and what our runs say."""
-    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY))))
+    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))
     counts = ", ".join(f"{name} {len(r)} ({len(r) - len(consistent(r))} left out)" for name, r in rows.items())
     lines = ["# Task partitioning: the acceptance statements", "", f"Runs: {counts}.", ""]
     lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
@@ -109,7 +153,18 @@ def report(rows: dict[str, list[Row]]) -> str:
         lines += [
             f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found if c.number in OF_THE_READING
         ]
+    lines += foraging_anova.section(rows.get(ANOVA, []))
     return "\n".join(lines) + "\n"
+
+
+def _write_anova(rows: list[Row], folder: Path) -> list[Path]:
+    """Write the terms of the four analyses, if the runs are enough for them."""
+    try:
+        terms = foraging_anova.table_of_terms(rows)
+    except ValueError:
+        return []
+    write_csv(table.from_rows(terms), folder / "anova.csv")
+    return [folder / "anova.csv"]
 
 
 def _open(name: str, folder: Path, overrides: Overrides) -> Study:

@@ -6,7 +6,7 @@ from pydantic import BaseModel, ValidationError
 
 from formicarium.commands.errors import UserError, near
 from formicarium.commands.fields import in_words, with_settings
-from formicarium.systems.registry import System, UnknownSystem, names, resolve
+from formicarium.systems.registry import BrokenSystem, System, UnknownSystem, names, resolve
 
 
 def find_system(name: str) -> System:
@@ -17,6 +17,8 @@ def find_system(name: str) -> System:
     """
     try:
         return resolve(name)
+    except BrokenSystem as error:
+        raise UserError(str(error)) from error
     except UnknownSystem as error:
         raise UserError(f"{error}.{near(name, names())}") from error
 

@@ -13,19 +13,28 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from formicarium import __version__
-from formicarium.campaigns.errors import CrewError, DesignError, Futile
+from formicarium.campaigns.errors import CrewError, DesignError, Explained, Futile
 from formicarium.campaigns.files import StoreError
 from formicarium.commands.campaign import campaign
+from formicarium.commands.check import check
+from formicarium.commands.connectivity import connectivity
+from formicarium.commands.debug import debug
 from formicarium.commands.describe import describe
 from formicarium.commands.diff import diff
+from formicarium.commands.doctor import doctor
 from formicarium.commands.errors import UserError
 from formicarium.commands.export import export
 from formicarium.commands.movie import movie
+from formicarium.commands.new import new
+from formicarium.commands.onboard import onboard
 from formicarium.commands.replay import replay
 from formicarium.commands.run import run
+from formicarium.commands.schedule import schedule
 from formicarium.commands.study import study
 from formicarium.commands.systems import systems
+from formicarium.commands.tune import tune
 from formicarium.commands.watch import watch
+from formicarium.scheduling.instance import InstanceError
 
 HELP = """Robot swarms that organise their own work: run, watched, measured and compared.
 
@@ -38,6 +47,9 @@ Start here:
     formicarium describe mark-i3            every number --set can change
     formicarium campaign --help             studies of many settings and many runs
     formicarium study sequencing            a published study again, beside the paper's figures
+    formicarium new my-swarm                a system of your own, laid out and working
+    formicarium connectivity FILE           how connected a graph is, and what its nodes can find out
+    formicarium schedule tasks.toml         tasks for a connected swarm, scheduled and proven
 """
 
 app = App(
@@ -58,6 +70,14 @@ app.command(systems)
 app.command(describe)
 app.command(campaign)
 app.command(study)
+app.command(new)
+app.command(check)
+app.command(debug)
+app.command(tune)
+app.command(onboard)
+app.command(doctor)
+app.command(connectivity)
+app.command(schedule)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -74,9 +94,9 @@ def exit_code(arguments: Sequence[str]) -> int:
     except CycloptsError as error:
         command = " ".join(["formicarium", *arguments[:1]]) if arguments[:1] != ["--help"] else "formicarium"
         return _say(f"{_plain(error)} See: {command} --help", 2)
-    except (UserError, DesignError, StoreError) as error:
+    except (UserError, DesignError, InstanceError, StoreError) as error:
         return _say(str(error), 2)
-    except (CrewError, Futile) as error:
+    except (CrewError, Explained, Futile) as error:
         return _say(str(error), 1)
     except KeyboardInterrupt as interruption:
         return _say(str(interruption) or "interrupted", 130)

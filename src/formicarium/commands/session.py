@@ -18,7 +18,7 @@ from formicarium.commands.runs import RECORDINGS
 from formicarium.commands.summary import print_summary
 from formicarium.commands.tables import EVERY
 from formicarium.commands.work import as_json, configuration_of, function_of, record_run, recording_of
-from formicarium.compiled import PACKAGE
+from formicarium.sources import PACKAGE
 
 FRAMES_OF_ONE_RUN = 2.0  # seconds: enough for the last frame and a look at the way there
 FRAMES_OF_A_MOVIE = 0.5  # seconds: 15 times real time at 30 pictures a second

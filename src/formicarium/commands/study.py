@@ -10,16 +10,18 @@ from formicarium.commands.whole import Whole
 Switch = Annotated[bool, Parameter(negative="")]
 Several = Annotated[tuple[str, ...], Parameter(negative="")]
 
-Figure = Literal[
-    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up",
-    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "all",
-]  # fmt: skip
-
 SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 
+Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
+Figure = Literal[
+    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
+    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "table-2-time", "table-2-travel", "all",
+]  # fmt: skip
+
+
 def study(
-    name: Literal["sequencing", "partitioning", "coverage"],
+    name: Name,
     /,
     *,
     figure: Figure = "all",
@@ -31,6 +33,7 @@ def study(
     check: Whole | None = None,
     sources: Several = (),
     from_tables: str | None = None,
+    reference: str | None = None,
 ) -> int:
     """Run a published study, or go on with it, and draw its figures beside the paper's numbers.
 
@@ -47,21 +50,26 @@ def study(
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
         formicarium study partitioning --figure 7 --runs 3
+        formicarium study connectivity --runs 5
         formicarium study coverage --figure table-1 --runs 5
+        formicarium study scheduling --figure table-2-time
 
     Parameters
     ----------
     name
-        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011) or
-        coverage (Panerati et al. 2018).
+        The study: sequencing (Garattoni & Birattari 2018), partitioning (Pini et al. 2011), or of
+        Panerati et al. 2018 connectivity (the estimators), coverage (the controller) or
+        scheduling (720 instances; needs the extra "scheduling").
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 7 to 11 and giving-up of partitioning; 4, 5, table-1, arms, safe,
-        drops, occlusion, laboratory and scale of coverage.
+        S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
+        in all) of partitioning; 2 of connectivity; 4, 5, table-1, arms, safe, drops, occlusion,
+        laboratory and scale of coverage; table-2-time, table-2-travel (with figures 7 and 8) of
+        scheduling.
     out
         Folder of the campaigns, figures, tables and report.
     runs
-        Runs of each cell, instead of the design's (30, or 50 and 20).
+        Runs of each cell, instead of the design's.
     setting
         Of sequencing: run the cells of this setting alone (several times: of these);
         figures and report still show all that is there.
@@ -78,15 +86,22 @@ def study(
     from_tables
         Draw from tables/ as an earlier study wrote them, for example from
         docs/results/tables, instead of from campaigns; runs nothing.
+    reference
+        Of connectivity: folder of the published A10s.mat and errorvssteps-*.dat; the study
+        then runs on the first ten of these graphs and draws the paper's curves as points.
     """
     from formicarium.commands.errors import UserError
 
     if check is not None and check < 1:
         raise UserError(f"--check {check}: must be at least 1")
-    if name == "coverage":
-        return _coverage(figure, Path(out), runs, workers, collect_only, sources)
     if name == "partitioning":
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
+    if name == "connectivity":
+        return _connectivity(figure, Path(out), runs, workers, collect_only, sources, reference)
+    if name == "coverage":
+        return _coverage(figure, Path(out), runs, workers, collect_only, sources)
+    if name == "scheduling":
+        return _scheduling(figure, Path(out), runs, workers, collect_only)
     from formicarium.commands.published.answers import draw_study, run_study
     from formicarium.commands.published.store import Asked
 
@@ -113,6 +128,27 @@ def _partitioning(
     return max(code, foraging.draw_study(figure, out, runs, sources[0] if sources else None))
 
 
+def _connectivity(
+    figure: str,
+    out: Path,
+    runs: int | None,
+    workers: int | None,
+    collect_only: bool,
+    sources: tuple[str, ...],
+    reference: str | None,
+) -> int:
+    from formicarium.commands import connectivity_study
+    from formicarium.commands.errors import UserError
+
+    if figure not in connectivity_study.FIGURES:
+        raise UserError(f"--figure {figure}: the study connectivity has {', '.join(connectivity_study.FIGURES)}")
+    if len(sources) > 1:
+        raise UserError("--sources: the study connectivity takes one")
+    runs_nothing = collect_only or sources
+    code = 0 if runs_nothing else connectivity_study.run_study(out, runs, workers, reference)
+    return max(code, connectivity_study.draw_study(out, runs, reference, sources[0] if sources else None))
+
+
 def _coverage(
     figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
 ) -> int:
@@ -125,3 +161,16 @@ def _coverage(
         raise UserError("--sources: the study coverage takes one")
     code = 0 if collect_only or sources else prominences.run_study(figure, out, runs, workers)
     return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))
+
+
+def _scheduling(figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool) -> int:
+    from formicarium.commands.errors import UserError
+    from formicarium.commands.extras import require
+
+    require("scheduling", "formicarium study scheduling")
+    from formicarium.commands import table_ii
+
+    if figure not in table_ii.TABLES:
+        raise UserError(f"--figure {figure}: the study scheduling has {', '.join(table_ii.TABLES)}")
+    code = 0 if collect_only else table_ii.run_study(figure, out, runs, workers)
+    return max(code, table_ii.draw_study(figure, out, runs))

@@ -28,7 +28,7 @@ def trial_of(row: Mapping[str, Any], events: pa.Table, frames: pa.Table | None, 
     """Put a trial together again from its row and tables."""
     outcome = {name: value for name, value in row.items() if name != "seed"}
     scene = scene_from(json.loads(metadata_of(events.schema)["scene"]))
-    return Trial(outcome, _events(events, kinds), None if frames is None else _frames(frames), scene)
+    return Trial(outcome, events_of(events, kinds), None if frames is None else _frames(frames), scene)
 
 
 def _events_table(events: np.ndarray, kinds: tuple[str, ...], scene: Scene) -> pa.Table:
@@ -38,7 +38,8 @@ def _events_table(events: np.ndarray, kinds: tuple[str, ...], scene: Scene) -> p
     return with_metadata(pa.table(columns), {"scene": json.dumps(scene_content(scene))})
 
 
-def _events(table: pa.Table, kinds: tuple[str, ...]) -> np.ndarray:
+def events_of(table: pa.Table, kinds: tuple[str, ...]) -> np.ndarray:
+    """Return the events of a table that ``result_of`` made."""
     number = {name: index for index, name in enumerate(kinds)}
     events = np.zeros(len(table), EVENT)
     for name in EVENT.names or ():

@@ -55,3 +55,18 @@ NICHE_LIGHT = np.dtype(
 
 # A lamp above everything.
 LAMP = np.dtype([("x", "f8"), ("y", "f8"), ("intensity", "f8")], align=True)
+
+HEARD = 8  # utterances that a robot can take in in one cycle; those of more are lost
+
+# What a robot that talks says of its three times (an option: the paper's robots do not talk).
+WORDS = np.dtype(
+    [
+        ("identity", "i8"),  # of who says it
+        ("times", "f8", 4),  # s, numbered as a system numbers its estimates
+        ("ages", "f8", 4),  # s since each was last measured, negative for never
+    ],
+    align=True,
+)
+
+# Said now, and heard in this cycle. Beside the Reading, which is that of the paper's robots.
+VOICE = np.dtype([("speaking", "i8"), ("said", WORDS), ("heard_count", "i8"), ("heard", WORDS, HEARD)], align=True)

@@ -34,6 +34,30 @@ def mean_of(values: Sequence[float] | np.ndarray, confidence: float = 0.95) -> M
     return Mean(value, value - half, value + half, len(found))
 
 
+def contrast(cells: Sequence[Sequence[float]], weights: Sequence[float], confidence: float = 0.95) -> Mean:
+    """Return a weighted sum of the means of cells, with an interval that lets every cell have its own variance.
+
+    Variance: ``sum w^2 s^2 / n``; degrees of freedom after Satterthwaite (1946). A cell of one value takes the mean
+    variance of the others; if no cell has two values the interval is the sum itself.
+
+    Raises:
+        ValueError: if a cell is empty.
+    """
+    if not all(len(cell) for cell in cells):
+        raise ValueError("no values have no mean")
+    sizes, factors = np.array([len(cell) for cell in cells], float), np.asarray(weights, float)
+    value = float(factors @ [np.mean(cell) for cell in cells])
+    spreads = np.array([np.var(cell, ddof=1) if len(cell) > 1 else math.nan for cell in cells])
+    number = int(sizes.sum())
+    known = sizes > 1
+    if not known.any() or not np.nansum(spreads):
+        return Mean(value, value, value, number)
+    parts = factors**2 * np.where(known, spreads, np.nanmean(spreads)) / sizes
+    freedom = parts.sum() ** 2 / (parts[known] ** 2 / (sizes[known] - 1)).sum()
+    half = float(stats.t.ppf(0.5 + 0.5 * confidence, freedom)) * math.sqrt(parts.sum())
+    return Mean(value, value - half, value + half, number)
+
+
 def welch(first: Sequence[float], second: Sequence[float]) -> float:
     """Return the two-sided p-value of Welch's test that two sets have the same mean; 1 with fewer than two values."""
     if len(first) < 2 or len(second) < 2:

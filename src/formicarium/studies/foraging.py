@@ -1,7 +1,7 @@
 """The partitioning study's runs, picked and summed up."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from formicarium.statistics.means import Mean, mean_of
 
@@ -11,6 +11,16 @@ HOURS = 16  # full windows of a run of 60,000 s; a 17th holds the last 40 minute
 SWITCH = 30000.0  # s
 
 Row = Mapping[str, Any]
+
+
+class Runs(NamedTuple):
+    """The rows of the study's campaigns; any of them may be empty."""
+
+    performance: Sequence[Row]
+    adaptivity: Sequence[Row] = ()
+    scalability: Sequence[Row] = ()
+    anova: Sequence[Row] = ()
+    crowds: Sequence[Row] = ()  # those of several sizes again, with those that are left out
 
 
 def picked(rows: Iterable[Row], **wanted: Any) -> list[Row]:

@@ -5,9 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from formicarium.statistics.means import mean_of
+from formicarium.statistics.pooling import pooled_percentiles
+from formicarium.studies import foraging_anova
 from formicarium.studies.chart import Chart, Panel, Spread, Stack, Trace
 from formicarium.studies.foraging import HOURS, METHODS, SWITCH, TIMES, Row, column, consistent, picked, share_by_hour
 
+SHARES = (5, 25, 50, 75, 95)  # percentiles that a row has of each measured time
 OBJECTS = "objects per robot"
 INTERFACING = "interfacing time Π (s)"
 
@@ -48,7 +51,7 @@ def figure_8(rows: Sequence[Row]) -> Chart:
 
 
 def figure_9(rows: Sequence[Row]) -> Chart:
-    """Measured times, not estimates: medians over runs of each run's percentiles."""
+    """Measured times, not estimates, of all runs of a cell in one heap."""
     panels = []
     for t in (0.0, 25.0, 50.0):
         spreads = []
@@ -56,10 +59,12 @@ def figure_9(rows: Sequence[Row]) -> Chart:
             cell = consistent(picked(rows, method=method, interfacing_time_s=t))
             for letter, name in (("n", "whole"), ("h", "harvest"), ("s", "store")):
                 if letter in names and cell:
-                    values = [column(cell, f"{name}_p{share}_s") for share in (5, 25, 50, 75, 95)]
-                    if all(values):
+                    timed = [row for row in cell if row[f"{name}_measured"]]
+                    if timed:
+                        found = [[row[f"{name}_p{share}_s"] for share in SHARES] for row in timed]
+                        values = pooled_percentiles(SHARES, found, [row[f"{name}_measured"] for row in timed])
                         words = {"n": "t_NP", "h": "harvest", "s": "store"}[letter]
-                        spreads.append(Spread(f"{method}\n{words}", [float(np.median(v)) for v in values]))
+                        spreads.append(Spread(f"{method}\n{words}", values))
         panels.append(Panel(f"Π = {t:g} s", "", "time (s): 5, 25, 50, 75, 95 %", spreads=spreads))
     return Chart("figure-9", "Measured times", _note(rows), panels)
 
@@ -120,3 +125,21 @@ def figure_giving_up(rows: Sequence[Row]) -> Chart:
         traces.append(_trace(f"Π = {t:g} s", cells))
     across = "log10 of the period between two draws of P_g (s)"
     return Chart("figure-giving-up", "Giving up", _note(rows), [Panel("", across, OBJECTS, traces)])
+
+
+def figure_anova(rows: Sequence[Row]) -> Chart:
+    """Objects per robot against each parameter of Table 1 at every Π: main effects and interactions with Π."""
+    kept, panels = consistent(rows), []
+    for name, (letter, levels) in foraging_anova.GRID.items():
+        if name == foraging_anova.INTERFACING:
+            continue
+        traces = []
+        for t in foraging_anova.TIMES:
+            there = [x for x in levels if picked(kept, cache__interfacing_time=t, **{name.replace(".", "__"): x})]
+            means = [
+                foraging_anova.level_mean(kept, cache__interfacing_time=t, **{name.replace(".", "__"): x})
+                for x in there
+            ]
+            traces.append(Trace(f"Π = {t:g} s", there, means))
+        panels.append(Panel("", letter, OBJECTS, traces))
+    return Chart("figure-anova", "Parameters of the method (Table 1)", _note(rows), panels)

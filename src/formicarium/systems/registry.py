@@ -1,16 +1,23 @@
 """The register of systems: name -> "module:object", resolved only when asked for.
 
-A reader's own package registers in the entry-point group ``formicarium.systems``.
+A reader's own package registers in the entry-point group ``formicarium.systems``. Whoever stands in the folder of
+such a package need not install it: what its pyproject.toml announces is known there.
 """
 
+import sys
+import tomllib
+import traceback
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.metadata import entry_points
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from pydantic import BaseModel
 
+from formicarium.sources import INSTALLED, PACKAGE
+from formicarium.trial.onboard import Onboard
 from formicarium.trial.record import Timeline, Trial
 from formicarium.trial.watching import Watching
 
@@ -51,26 +58,79 @@ class System(NamedTuple):
     advance: Callable[[Any, int], None] | None = None  # (state, cycles): the compiled loop
     roles: Callable[[Any], np.ndarray] | None = None  # state -> (N,) role numbers as in Scene.roles
     watching: Watching | None = None  # how it is shown and touched; None if it cannot be watched
+    onboard: Onboard | None = None  # its loop taken apart, for controllers in processes of their own
+    home: str | None = None  # module whose package holds its sources; that of ``run`` if not given
+    # (parameters, seed, last good cycle, error) -> the error in words that name file, line, robot and cycle
+    explained: Callable[[Any, int, int, Exception | None], Exception] | None = None
 
 
 class UnknownSystem(LookupError):
     """No system of that name is registered."""
 
 
+class BrokenSystem(UnknownSystem):
+    """A system is there but its code cannot be imported; names file and line."""
+
+
+def broken(name: str, error: Exception) -> str:
+    """Say where the code of a system fails while it is imported."""
+    if isinstance(error, SyntaxError):
+        place = f"{error.filename}, line {error.lineno}"
+    else:
+        frames = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith("<")]
+        place = f"{frames[-1].filename}, line {frames[-1].lineno}"
+        own = [frame for frame in frames if not Path(frame.filename).is_relative_to(PACKAGE)]
+        own = [frame for frame in own if not INSTALLED & set(Path(frame.filename).parts)]
+        own = [frame for frame in own if Path(frame.filename).parent.name != "importlib"]
+        if own:
+            place = f"{own[-1].filename}, line {own[-1].lineno}"
+    return f"the system {name!r} cannot be imported: {place}: {type(error).__name__}: {error}"
+
+
 def names() -> list[str]:
     """Return the names of all registered systems, sorted."""
-    return sorted({*BUILT_IN, *(point.name for point in entry_points(group=GROUP))})
+    try:
+        here = announced_here()
+    except UnknownSystem:  # told by whoever asks for one of them
+        here = {}
+    return sorted({*BUILT_IN, *here, *(point.name for point in entry_points(group=GROUP))})
+
+
+def announced_here() -> dict[str, str]:
+    """Return the systems that the pyproject.toml of the current folder announces: name -> "module:object".
+
+    Raises:
+        UnknownSystem: if the file is no TOML.
+    """
+    try:
+        content = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        return {}
+    except tomllib.TOMLDecodeError as error:
+        raise UnknownSystem(f"pyproject.toml of this folder is no TOML: {error}") from error
+    found = content.get("project", {}).get("entry-points", {}).get(GROUP, {})
+    return {str(name): str(place) for name, place in found.items()} if isinstance(found, dict) else {}
 
 
 def resolve(name: str) -> System:
     """Return the system called ``name``; "module:object" names one that is not registered.
 
+    After a "+" the name may go on with failures, see ``systems/failing.py``.
+
     Raises:
         UnknownSystem: if nothing is registered under that name; the message lists what is.
     """
+    if "+" in name:
+        plain, *failures = name.split("+")
+        return import_module("formicarium.systems.failing").failing(resolve(plain), failures)
     if name in BUILT_IN:
         module, attribute = BUILT_IN[name].split(":")
         return getattr(import_module(module), attribute)
+    if place := announced_here().get(name):
+        here = str(Path.cwd())
+        if here not in sys.path:
+            sys.path.insert(0, here)  # first: who stands in the folder means its files, not an installed copy
+        return _unregistered(place)
     for point in entry_points(group=GROUP):
         if point.name == name:
             return point.load()
@@ -85,8 +145,12 @@ def _unregistered(name: str) -> System:
         system = getattr(import_module(module), attribute)
     except (AttributeError, ModuleNotFoundError, TypeError, ValueError) as error:
         if isinstance(error, ModuleNotFoundError) and not f"{module}.".startswith(f"{error.name}."):
-            raise  # the module is there, something that it imports is not
+            raise BrokenSystem(broken(name, error)) from error  # it is there, something that it imports is not
+        if len(traceback.extract_tb(error.__traceback__)) > 1 and not isinstance(error, ModuleNotFoundError):
+            raise BrokenSystem(broken(name, error)) from error
         raise UnknownSystem(f"there is no system {name!r}: {error}") from error
+    except Exception as error:
+        raise BrokenSystem(broken(name, error)) from error
     if not isinstance(system, System):
         raise UnknownSystem(f"{name!r} is no system but a {type(system).__name__}")
     return system

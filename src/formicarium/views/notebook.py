@@ -4,10 +4,13 @@ from formicarium.views.notebook import Replay
 Replay("formicarium-results/mark-i3-1a2b3c4d/recordings/seed-7.recording")
 """
 
+from contextlib import suppress
 from html import escape
 from pathlib import Path
 
+from formicarium.systems.registry import resolve
 from formicarium.views.recording.log import read_recording
+from formicarium.views.sentences import lines, teller
 from formicarium.views.single_file import single_file
 
 
@@ -26,10 +29,10 @@ class Replay:
     def page(self) -> str:
         """Return the page as one HTML file."""
         recording, kinds = self.recording, self.recording.head["kinds"]
-        events = [
-            (int(e["cycle"]), kinds[int(e["kind"])], int(e["robot"]), f"{kinds[int(e['kind'])]} {int(e['robot'])}")
-            for e in recording.events
-        ]
+        system = None
+        with suppress(LookupError, ImportError):  # a system that is not here any more still has its frames
+            system = resolve(str(recording.head["name"]))
+        events = lines(recording.events, kinds, teller(system, kinds))
         title = f"{recording.head['system']}, seed {recording.head['seed']}"
         return single_file(recording.scene, recording.frames, events, recording.interventions, title)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contracts.states import copy_of
+from formicarium.contracts.states import copy_of
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.parameters import coverage_parameters
 from formicarium.systems.coverage.setup import begin

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse.csgraph import connected_components
 
-from contracts.states import copy_of
+from formicarium.contracts.states import copy_of
 from formicarium.observers.graphs import Graph, count_cut_robots
 from formicarium.observers.spectrum import lambda_2
 from systems.coverage.swarm import advance, line, move, swarm

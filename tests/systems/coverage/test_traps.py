@@ -6,7 +6,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from contracts.states import copy_of, distances, turned
+from formicarium.contracts.states import copy_of, distances, turned
 from formicarium.robots.footbot import PACKETS
 from formicarium.systems.coverage.behaviour import decide
 from formicarium.systems.coverage.eruption import BUZZ_SPIRALS

@@ -25,7 +25,7 @@ class Robot:
     def close(self, seconds, at_nest, label=None):
         self.reading.cycle = round(10 * seconds)
         close_timer(self.reading, self.memory, self.strategy, self.chart, at_nest)
-        choose(self.reading, self.memory, self.strategy)
+        choose(self.reading, self.memory, self.strategy, self.chart)
         if label is not None:
             self.memory.label = label
 

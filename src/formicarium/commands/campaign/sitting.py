@@ -24,7 +24,7 @@ from formicarium.commands.campaign.slurm import write_script
 from formicarium.commands.campaign.study import Overrides, Study
 from formicarium.commands.errors import UserError
 from formicarium.commands.session import LIBRARIES
-from formicarium.compiled import PACKAGE
+from formicarium.sources import PACKAGE
 
 SHOWN_FAILURES = 3
 

@@ -27,3 +27,23 @@ def sense_light(body, lamp, sensors, moment, reading):
         away = math.fabs(wrapped(PROXIMITY_ANGLES[k] - bearing))
         value = strength * max(0.0, 1.0 - away * (2.0 / math.pi))
         reading.light[k] = min(1.0, max(0.0, value + sensors.light_noise * (2.0 * uniform(noise) - 1.0)))
+
+
+@compiled
+def sense_lamps(body, lamps, sensors, moment, reading):
+    """Read any number of lamps: their light adds up, otherwise as ``sense_light``."""
+    for k in range(PROXIMITY_SENSORS):
+        reading.light[k] = 0.0
+    for n in range(len(lamps)):
+        dx = lamps[n].x - body.x
+        dy = lamps[n].y - body.y
+        strength = math.exp(-2.0 * math.sqrt(dx * dx + dy * dy) / lamps[n].intensity)
+        bearing = wrapped(math.atan2(dy, dx) - body.heading)
+        for k in range(PROXIMITY_SENSORS):
+            away = math.fabs(wrapped(PROXIMITY_ANGLES[k] - bearing))
+            reading.light[k] += strength * max(0.0, 1.0 - away * (2.0 / math.pi))
+    noise = derived(moment, AMBIENT)
+    for k in range(PROXIMITY_SENSORS):
+        noise = advanced(noise)
+        value = reading.light[k] + sensors.light_noise * (2.0 * uniform(noise) - 1.0)
+        reading.light[k] = min(1.0, max(0.0, value))

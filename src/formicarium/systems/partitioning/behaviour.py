@@ -12,10 +12,19 @@ from formicarium.systems.partitioning.choices import (
     close_timer,
     gives_up,
     note_deed,
+    note_stay,
     start_wait,
 )
 from formicarium.systems.partitioning.docking import ACKNOWLEDGED, LOST, begin_leaving, dock, leave, strayed
-from formicarium.systems.partitioning.memory import Deed, Ground, Label, State, enter
+from formicarium.systems.partitioning.memory import Area, Deed, Ground, Label, State, enter
+from formicarium.systems.partitioning.middle import (
+    at_middle,
+    begin_in_middle,
+    dropped_in_middle,
+    leave_after_drop,
+    leave_after_pick,
+    walk_on_in_middle,
+)
 from formicarium.systems.partitioning.navigation import (
     BACK,
     FORWARD,
@@ -51,12 +60,12 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         drive(command, 0.0, table.turn_rate, epuck.wheel_distance)  # on a border between two shades: feel about
         return
     if asleep:
-        wake(reading, memory, strategy)
+        wake(reading, memory, strategy, chart)
     if memory.leaving > 0 or (is_walking(memory) and strayed(reading, memory, table)):
         leave(reading, memory, command, table, epuck)
     elif not escape(reading, memory, command, table, epuck):
         if memory.state == State.GO_SOURCE:
-            go_source(reading, memory, command, table, epuck)
+            go_source(reading, memory, command, table, chart, epuck)
         elif memory.state == State.ENTER_SOURCE:
             enter_source(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.TO_CACHE_DROP:
@@ -64,13 +73,13 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.WAIT_DROP:
             wait(reading, memory, command, table, strategy, chart, epuck, False)
         elif memory.state == State.ENTER_DROP:
-            enter_drop(reading, memory, command, table, epuck)
+            enter_drop(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.DROPPING:
-            dropping(reading, memory)
+            dropping(reading, memory, strategy, chart)
         elif memory.state == State.CORRIDOR_TO_NEST:
-            corridor_to_nest(reading, memory, command, table, epuck)
+            corridor_to_nest(reading, memory, command, table, chart, epuck)
         elif memory.state == State.GO_NEST:
-            go_nest(reading, memory, command, table, epuck)
+            go_nest(reading, memory, command, table, chart, epuck)
         elif memory.state == State.ENTER_NEST:
             enter_nest(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.TO_CACHE_PICK:
@@ -80,9 +89,9 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.ENTER_PICK:
             enter_pick(reading, memory, command, table, epuck)
         elif memory.state == State.PICKING:
-            picking(reading, memory)
+            picking(reading, memory, strategy, chart)
         elif memory.state == State.CORRIDOR_TO_SOURCE:
-            corridor_to_source(reading, memory, command, table, epuck)
+            corridor_to_source(reading, memory, command, table, chart, epuck)
 
 
 @compiled
@@ -107,12 +116,17 @@ def on_source_side(memory):
 
 
 @compiled
-def wake(reading, memory, strategy):
+def wake(reading, memory, strategy, chart):
     """Begin: in the nest area as if an object had just been stored, in the source area without a timer (TP-32)."""
     if on_nest_side(memory):
         note_deed(memory, Deed.BEGAN, reading.cycle)
-        choose(reading, memory, strategy)
+        memory.area = Area.NEST
+        choose(reading, memory, strategy, chart)
         enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
+        memory.area = Area.NEST if memory.label == Label.CACHE else Area.SOURCE
+    elif at_middle(memory):
+        note_deed(memory, Deed.BEGAN, reading.cycle)
+        begin_in_middle(reading, memory, strategy, chart)
     else:
         enter(memory, State.GO_SOURCE, reading.cycle)
 
@@ -121,11 +135,11 @@ def wake(reading, memory, strategy):
 
 
 @compiled
-def go_source(reading, memory, command, table, epuck):
+def go_source(reading, memory, command, table, chart, epuck):
     """Look for a green light in the source area."""
     if not on_source_side(memory):
         arrive(reading, memory, table.return_cycles)
-        follow_corridor(reading, memory, command, table, epuck, False)
+        follow_corridor(reading, memory, command, table, chart, epuck, Area.SOURCE)
     elif nearest_blob(reading, Colour.GREEN) >= 0:
         enter(memory, State.ENTER_SOURCE, reading.cycle)
         dock(reading, memory, command, table, epuck, Colour.GREEN)
@@ -149,13 +163,14 @@ def harvested(reading, memory, strategy, chart):
     memory.loaded = 1
     close_timer(reading, memory, strategy, chart, False)
     note_deed(memory, Deed.HARVESTED, reading.cycle)
-    choose(reading, memory, strategy)
+    choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_DROP if memory.label == Label.CACHE else State.CORRIDOR_TO_NEST, reading.cycle)
+    memory.area = Area.SOURCE if memory.label == Label.CACHE else Area.NEST
     begin_leaving(memory, reading.cycle, FORWARD)
 
 
 @compiled
-def enter_drop(reading, memory, command, table, epuck):
+def enter_drop(reading, memory, command, table, strategy, chart, epuck):
     """Drive into a blue booth of the cache; red there means that the object is dropped."""
     result = dock(reading, memory, command, table, epuck, Colour.BLUE)
     if result == ACKNOWLEDGED:
@@ -163,36 +178,44 @@ def enter_drop(reading, memory, command, table, epuck):
         memory.waiting = 0
         note_deed(memory, Deed.DROPPED, reading.cycle)
         enter(memory, State.DROPPING, reading.cycle)
+        if memory.area == Area.MIDDLE:
+            dropped_in_middle(reading, memory, strategy, chart)
     elif result == LOST:
         enter(memory, State.WAIT_DROP if memory.waiting == 1 else State.TO_CACHE_DROP, reading.cycle)
 
 
 @compiled
-def dropping(reading, memory):
+def dropping(reading, memory, strategy, chart):
     """Stay while the gripper is busy, then go for the next object: no decision here."""
     if reading.busy == 0 and reading.cycle > memory.since:
+        note_stay(reading, memory, strategy, chart)
         enter(memory, State.GO_SOURCE, reading.cycle)
         begin_leaving(memory, reading.cycle, BACK)
+        if memory.area == Area.MIDDLE:
+            leave_after_drop(reading, memory)
 
 
 @compiled
-def corridor_to_nest(reading, memory, command, table, epuck):
+def corridor_to_nest(reading, memory, command, table, chart, epuck):
     """Carry the object through the corridor."""
     if on_nest_side(memory):
         enter(memory, State.GO_NEST, reading.cycle)
+        memory.area = Area.NEST
         arrive(reading, memory, table.arrival_cycles)
-    follow_corridor(reading, memory, command, table, epuck, True)
+    elif memory.area == Area.MIDDLE and at_middle(memory):
+        walk_on_in_middle(reading, memory, table)
+    follow_corridor(reading, memory, command, table, chart, epuck, memory.area)
 
 
 # the nest's side
 
 
 @compiled
-def go_nest(reading, memory, command, table, epuck):
+def go_nest(reading, memory, command, table, chart, epuck):
     """Look for a blue light in the nest area."""
     if not on_nest_side(memory):
         arrive(reading, memory, table.return_cycles)
-        follow_corridor(reading, memory, command, table, epuck, True)
+        follow_corridor(reading, memory, command, table, chart, epuck, Area.NEST)
     elif nearest_blob(reading, Colour.BLUE) >= 0:
         enter(memory, State.ENTER_NEST, reading.cycle)
         dock(reading, memory, command, table, epuck, Colour.BLUE)
@@ -216,8 +239,9 @@ def stored(reading, memory, strategy, chart):
     memory.loaded = 0
     close_timer(reading, memory, strategy, chart, True)
     note_deed(memory, Deed.STORED, reading.cycle)
-    choose(reading, memory, strategy)
+    choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
+    memory.area = Area.NEST if memory.label == Label.CACHE else Area.SOURCE
     begin_leaving(memory, reading.cycle, BACK)
 
 
@@ -235,20 +259,26 @@ def enter_pick(reading, memory, command, table, epuck):
 
 
 @compiled
-def picking(reading, memory):
+def picking(reading, memory, strategy, chart):
     """Stay while the gripper is busy, then carry the object to the nest: no decision here."""
     if reading.busy == 0 and reading.cycle > memory.since:
+        note_stay(reading, memory, strategy, chart)
         enter(memory, State.GO_NEST, reading.cycle)
         begin_leaving(memory, reading.cycle, FORWARD)
+        if memory.area == Area.MIDDLE:
+            leave_after_pick(reading, memory)
 
 
 @compiled
-def corridor_to_source(reading, memory, command, table, epuck):
+def corridor_to_source(reading, memory, command, table, chart, epuck):
     """Go back through the corridor, empty."""
     if on_source_side(memory):
         enter(memory, State.GO_SOURCE, reading.cycle)
+        memory.area = Area.SOURCE
         arrive(reading, memory, table.arrival_cycles)
-    follow_corridor(reading, memory, command, table, epuck, False)
+    elif memory.area == Area.MIDDLE and at_middle(memory):
+        walk_on_in_middle(reading, memory, table)
+    follow_corridor(reading, memory, command, table, chart, epuck, memory.area)
 
 
 # the cache, from either side
@@ -260,23 +290,33 @@ def to_cache(reading, memory, command, table, strategy, chart, epuck, to_pick):
     cycle = reading.cycle
     if nearest_blob(reading, Colour.GREEN if to_pick else Colour.BLUE) >= 0 and at_cache(memory, to_pick):
         enter_cache(reading, memory, command, table, epuck, to_pick)
-    elif memory.ground == (Ground.PICK_ZONE if to_pick else Ground.DROP_ZONE):
+    elif memory.ground == zone_of(memory, to_pick):
         look(reading, memory, command, table, epuck, BACK if to_pick else FORWARD)
         if memory.looks >= 2:
             enter(memory, State.WAIT_PICK if to_pick else State.WAIT_DROP, cycle)
             start_wait(reading, memory, strategy, chart)
     else:
-        approach_cache(reading, memory, command, table, epuck, to_pick)
+        approach_cache(reading, memory, command, table, chart, epuck, to_pick)
 
 
 @compiled
 def at_cache(memory, to_pick):
     """Tell whether the robot stands on the cache's side of the arena that it wants to use."""
+    if memory.area == Area.MIDDLE:
+        return at_middle(memory)
     return on_nest_side(memory) if to_pick else on_source_side(memory)
 
 
 @compiled
-def approach_cache(reading, memory, command, table, epuck, to_pick):
+def zone_of(memory, to_pick):
+    """Return the access zone of the cache's side that the robot wants to use."""
+    if memory.area == Area.MIDDLE:
+        return Ground.MIDDLE_PICK_ZONE if to_pick else Ground.MIDDLE_DROP_ZONE
+    return Ground.PICK_ZONE if to_pick else Ground.DROP_ZONE
+
+
+@compiled
+def approach_cache(reading, memory, command, table, chart, epuck, to_pick):
     """Walk to the cache's access zone."""
     if reading.cycle < memory.roam_until and not in_zone(memory):
         walk(reading, memory, command, table, epuck, memory.roam_heading, table.speed)
@@ -284,13 +324,22 @@ def approach_cache(reading, memory, command, table, epuck, to_pick):
         walk(reading, memory, command, table, epuck, BACK if to_pick else FORWARD, table.speed)
     else:
         arrive(reading, memory, table.return_cycles)
-        walk(reading, memory, command, table, epuck, corridor_heading(memory, to_pick), table.speed)
+        walk(reading, memory, command, table, epuck, corridor_heading(memory, chart, memory.area), table.speed)
+
+
+@compiled
+def next_area(memory, chart, to_pick):
+    """Return where who gives up does the neighbouring sub-task as well: one area on with the object, or one back."""
+    if chart.subtasks == 3 and memory.area != Area.MIDDLE:
+        return Area.MIDDLE
+    return Area.SOURCE if to_pick else Area.NEST
 
 
 @compiled
 def in_zone(memory):
     """Tell whether the robot stands in an access zone of the cache."""
-    return memory.ground == Ground.DROP_ZONE or memory.ground == Ground.PICK_ZONE
+    outer = memory.ground == Ground.DROP_ZONE or memory.ground == Ground.PICK_ZONE
+    return outer or memory.ground == Ground.MIDDLE_DROP_ZONE or memory.ground == Ground.MIDDLE_PICK_ZONE
 
 
 @compiled
@@ -307,8 +356,9 @@ def wait(reading, memory, command, table, strategy, chart, epuck, to_pick):
         enter_cache(reading, memory, command, table, epuck, to_pick)
     elif gives_up(reading, memory, strategy, chart, to_pick):
         enter(memory, State.CORRIDOR_TO_SOURCE if to_pick else State.CORRIDOR_TO_NEST, reading.cycle)
-    elif memory.ground == (Ground.PICK_ZONE if to_pick else Ground.DROP_ZONE):
+        memory.area = next_area(memory, chart, to_pick)
+    elif memory.ground == zone_of(memory, to_pick):
         heading = BACK if to_pick else FORWARD
         look_about(reading, memory, command, table, epuck, heading, 0.5 * table.speed)
     else:
-        approach_cache(reading, memory, command, table, epuck, to_pick)
+        approach_cache(reading, memory, command, table, chart, epuck, to_pick)

@@ -2,16 +2,22 @@
 
 from formicarium.compiled import compiled
 from formicarium.streams import advanced, uniform
-from formicarium.systems.partitioning.memory import NEVER, Deed, Estimate, Label
+from formicarium.systems.partitioning.memory import NEVER, Area, Deed, Estimate, Label
 from formicarium.systems.partitioning.parameters import METHODS
-from formicarium.systems.partitioning.strategy import giving_up_probability, partition_probability, renewed
+from formicarium.systems.partitioning.strategy import (
+    explored,
+    giving_up_probability,
+    partition_probability,
+    renewed,
+    steepness_of,
+)
 
 NEVER_PARTITION = METHODS.index("never")
 ALWAYS_PARTITION = METHODS.index("always")
 
 
 @compiled
-def choose(reading, memory, strategy):
+def choose(reading, memory, strategy, chart):
     """Decide between cache and corridor with P_p, equation 1; start the timer."""
     memory.choices = advanced(memory.choices)
     if strategy.method == NEVER_PARTITION:
@@ -20,12 +26,50 @@ def choose(reading, memory, strategy):
         memory.probability = 1.0
     else:
         memory.probability = partition_probability(
-            memory.whole, memory.harvest, memory.store, strategy.steepness, strategy.least_probability
+            memory.whole,
+            memory.harvest,
+            memory.store + memory.middle,
+            steepness_of(strategy, memory.stay),
+            strategy.least_probability,
         )
+        explore(reading, memory, strategy, chart)
     memory.label = Label.CACHE if uniform(memory.choices) < memory.probability else Label.CORRIDOR
     memory.timer = reading.cycle
+    memory.set_out = memory.area
     memory.waiting = 0
     memory.wait_began = NEVER
+
+
+@compiled
+def explore(reading, memory, strategy, chart):
+    """Mind the ages of one's times (TP-O5): the corridor measures t_NP and leads to the other side's sub-task."""
+    here, there = Estimate.STORE, Estimate.HARVEST
+    if memory.loaded == 1:
+        here, there = Estimate.HARVEST, Estimate.STORE
+    if memory.area == Area.MIDDLE:
+        here = Estimate.MIDDLE
+    corridor_age = max(age_of(reading, memory, chart, Estimate.WHOLE), age_of(reading, memory, chart, there))
+    memory.probability = explored(memory.probability, corridor_age, age_of(reading, memory, chart, here), strategy)
+
+
+@compiled
+def age_of(reading, memory, chart, estimate):
+    """Return how long ago (s) a time was last measured; a first guess is as old as the trial."""
+    return (reading.cycle - max(0, memory.measured_at[estimate])) * chart.cycle_time
+
+
+@compiled
+def note_measurement(reading, memory, estimate):
+    """Remember which time has just been renewed, and when."""
+    memory.updated = estimate
+    memory.measured_at[estimate] = reading.cycle
+
+
+@compiled
+def note_stay(reading, memory, strategy, chart):
+    """Average the stays in cache booths: the robot's own measure of the interfacing time (TP-O4)."""
+    seconds = (reading.cycle - memory.since) * chart.cycle_time
+    memory.stay = seconds if memory.stay < 0.0 else renewed(memory.stay, seconds, strategy.alpha)
 
 
 @compiled
@@ -40,16 +84,23 @@ def close_timer(reading, memory, strategy, chart, at_nest):
     if memory.timer == NEVER:
         return
     seconds = (reading.cycle - memory.timer) * chart.cycle_time
+    if memory.label == Label.CORRIDOR and memory.set_out == Area.MIDDLE:
+        return  # neither a crossing nor a sub-task
     if memory.label == Label.CORRIDOR:
-        memory.updated = Estimate.WHOLE
+        note_measurement(reading, memory, Estimate.WHOLE)
         memory.measured = 2.0 * seconds
         memory.whole = renewed(memory.whole, memory.measured, strategy.alpha)
+    elif memory.label == Label.CACHE and memory.area == Area.MIDDLE:
+        if memory.set_out == Area.MIDDLE:
+            note_measurement(reading, memory, Estimate.MIDDLE)
+            memory.measured = seconds
+            memory.middle = renewed(memory.middle, seconds, strategy.alpha)
     elif memory.label == Label.CACHE and at_nest:
-        memory.updated = Estimate.STORE
+        note_measurement(reading, memory, Estimate.STORE)
         memory.measured = seconds
         memory.store = renewed(memory.store, seconds, strategy.alpha)
     elif memory.label == Label.CACHE:
-        memory.updated = Estimate.HARVEST
+        note_measurement(reading, memory, Estimate.HARVEST)
         memory.measured = seconds
         memory.harvest = renewed(memory.harvest, seconds, strategy.alpha)
 
@@ -78,8 +129,10 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     if strategy.method == ALWAYS_PARTITION:
         return False
     own = memory.store if to_pick else memory.harvest
+    if memory.area == Area.MIDDLE:
+        own = memory.middle
     probability = giving_up_probability(
-        waited, own, memory.harvest, memory.store, strategy.giveup_steepness, strategy.giveup_offset
+        waited, own, memory.harvest, memory.store + memory.middle, strategy.giveup_steepness, strategy.giveup_offset
     )
     if strategy.threshold == 1:
         leaves = probability >= memory.limit
@@ -96,8 +149,13 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     memory.updated = Estimate.NONE
     memory.measured = waited
     if waited > own:
-        memory.updated = Estimate.STORE if to_pick else Estimate.HARVEST
-        if to_pick:
+        estimate = Estimate.STORE if to_pick else Estimate.HARVEST
+        if memory.area == Area.MIDDLE:
+            estimate = Estimate.MIDDLE
+        note_measurement(reading, memory, estimate)
+        if memory.area == Area.MIDDLE:
+            memory.middle = renewed(own, waited, strategy.alpha)
+        elif to_pick:
             memory.store = renewed(own, waited, strategy.alpha)
         else:
             memory.harvest = renewed(own, waited, strategy.alpha)

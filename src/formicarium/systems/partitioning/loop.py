@@ -2,8 +2,10 @@
 
 from formicarium.compiled import compiled
 from formicarium.devices.depot import serve_depots
+from formicarium.robots.simulated.speech import sense_speech
 from formicarium.systems.partitioning.behaviour import decide
 from formicarium.systems.partitioning.measures import note
+from formicarium.systems.partitioning.talk import listen, speak
 from formicarium.trial.wheeled import act, move, sense
 
 
@@ -28,6 +30,10 @@ def run(state, cycles):
                     state.epuck[0],
                 )
 
+        # Robots that talk hear what their neighbours have measured: an option, the paper's do not.
+        if state.strategy[0].social_weight > 0.0:
+            talk(state)
+
         # Wheels turn, bodies move and are in each other's way.
         act(state)
         move(state)
@@ -47,3 +53,17 @@ def run(state, cycles):
         # The observers write down what has happened.
         note(state)
         clock.cycle += 1
+
+
+@compiled
+def talk(state):
+    """Let all speak, then all hear, then all make something of it."""
+    strategy, chart = state.strategy[0], state.chart[0]
+    for i in range(len(state.robots)):
+        if state.robots[i].alive == 1:
+            speak(state.readings[i], state.memories[i], state.voices[i], strategy, chart)
+    for i in range(len(state.robots)):
+        sense_speech(state.world, i, state.robots, state.voices, strategy.social_range)
+    for i in range(len(state.robots)):
+        if state.robots[i].alive == 1:
+            listen(state.memories[i], state.voices[i], strategy)

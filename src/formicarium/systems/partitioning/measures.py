@@ -8,7 +8,7 @@ import numpy as np
 from formicarium.compiled import compiled
 from formicarium.devices.depot import Place
 from formicarium.observers.objects import PHANTOM, see_arrival, see_departure
-from formicarium.systems.partitioning.memory import Deed, Estimate, Label, State
+from formicarium.systems.partitioning.memory import Area, Deed, Estimate, Label, State
 from formicarium.trial.events import write_event
 
 
@@ -29,6 +29,8 @@ class EventKind(IntEnum):
     DIED = 11
     PROBABILITY = 12  # on request, with each decision; value: P_p in millionths; detail: Deed that led to it
     ROLE = 13  # value: new Role; detail: old one
+    ESTIMATES = 14  # on request, with each decision; subject: of harvesting, value: of storing, detail: of the whole
+    PASSED_ON = 15  # dropped between two caches; subject: Label chosen; value: time measured; detail: Estimate
 
 
 class Role(IntEnum):
@@ -122,6 +124,9 @@ def note_robot(state, i):
     if state.swarm[0].log_decisions == 1:
         millionths = int(1e6 * memory.probability + 0.5)
         write_event(clock, events, EventKind.PROBABILITY, who, memory.updated, millionths, memory.deed)
+        harvest, store = int(memory.harvest / cycle_time + 0.5), int(memory.store / cycle_time + 0.5)
+        whole = int(memory.whole / cycle_time + 0.5)
+        write_event(clock, events, EventKind.ESTIMATES, who, harvest, store, whole)
 
 
 @compiled
@@ -138,6 +143,9 @@ def note_hand_over(state, i):
     who = state.robots[i].identity
     clock = state.clock[0]
     waited = clock.cycle - memory.wait_began if memory.wait_began >= 0 else 0
+    if dropped and memory.set_out == Area.MIDDLE and memory.timer == clock.cycle:
+        measured = int(memory.measured / state.chart[0].cycle_time + 0.5)
+        write_event(clock, state.events, EventKind.PASSED_ON, who, memory.label, measured, memory.updated)
     if pair < 0:
         write_event(clock, state.events, EventKind.UNFOUNDED, who, memory.deed, 0, 0)
     kind = EventKind.DROPPED if dropped else EventKind.PICKED
@@ -164,7 +172,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     stored = number_of(EventKind.STORED)
     used = events[np.isin(kinds, (EventKind.DROPPED, EventKind.PICKED))]
     gave_up = events[kinds == EventKind.GAVE_UP]
-    decided = events[np.isin(kinds, (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN))]
+    deciding = (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN, EventKind.PASSED_ON)
+    decided = events[np.isin(kinds, deciding)]
     corridor = decided[decided["subject"] == Label.CORRIDOR]
     actions = max(1, len(used) + len(gave_up) + len(corridor))
     row: dict[str, int | float | str | None] = {
@@ -181,6 +190,9 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         windows = np.floor(found["cycle"] * cycle_time / HOUR).astype(int)
         row[f"{name}_by_hour"] = " ".join(map(str, np.bincount(windows, minlength=int(-(-duration // HOUR)))))
     row |= measured_times(events, cycle_time)
+    if state.chart[0].subtasks == 3:
+        passed = events[(kinds == EventKind.PASSED_ON) & (events["detail"] == Estimate.MIDDLE)]["value"] * cycle_time
+        row |= {"middle_measured": len(passed), "middle_mean_s": float(passed.mean()) if len(passed) else None}
     waits = np.concatenate([used["value"][used["value"] > 0], gave_up["value"]]) * cycle_time
     row |= {
         "waits": len(waits),
@@ -215,8 +227,8 @@ def measured_times(events: np.ndarray, cycle_time: float) -> dict[str, int | flo
 
 
 def least_share(events: np.ndarray, state: Any, count: int) -> float | None:
-    """Return what the least busy robot has harvested and stored, as a share of the median (TP, trap T27)."""
-    closing = events[np.isin(events["kind"], (EventKind.HARVESTED, EventKind.STORED))]
+    """Return what the least busy robot has harvested, passed on and stored, as a share of the median (trap T27)."""
+    closing = events[np.isin(events["kind"], (EventKind.HARVESTED, EventKind.STORED, EventKind.PASSED_ON))]
     numbers = [int((closing["robot"] == identity).sum()) for identity in state.robots.identity]
     median = float(np.median(numbers))
     return min(numbers) / median if median > 0 else None

@@ -48,6 +48,19 @@ class Ground(IntEnum):
     RIGHT_LEG = 4
     PICK_ZONE = 5
     NEST_AREA = 6
+    MIDDLE_PICK_ZONE = 7  # from here on: with three areas only
+    MIDDLE_AREA = 8
+    MIDDLE_DROP_ZONE = 9
+    MIDDLE_LEG = 10  # of the corridor, from its bottom up to the middle area
+    CROSSING = 11  # of that leg and the corridor's bottom
+
+
+class Area(IntEnum):
+    """The areas in which robots work, from source to nest."""
+
+    SOURCE = 0
+    MIDDLE = 1  # with three areas only
+    NEST = 2
 
 
 class Estimate(IntEnum):
@@ -57,6 +70,7 @@ class Estimate(IntEnum):
     HARVEST = 1  # phi_1
     STORE = 2  # phi_2
     WHOLE = 3  # t_NP
+    MIDDLE = 4  # phi_2 of three
 
 
 class Deed(IntEnum):
@@ -82,7 +96,12 @@ MEMORY = np.dtype(
         # strategy
         ("harvest", "f8"),  # s, estimates of phi_1,
         ("store", "f8"),  # s, phi_2
-        ("whole", "f8"),  # s, and of the whole task
+        ("whole", "f8"),  # s, of the whole task
+        ("middle", "f8"),  # s, and of the sub-task between two caches, 0 if there is none
+        ("area", "i8"),  # Area in which it works or to which it is on its way
+        ("set_out", "i8"),  # Area in which it decided last
+        ("measured_at", "i8", 5),  # cycle of each Estimate's last measurement of its own, NEVER if none
+        ("stay", "f8"),  # s, its stays in cache booths, averaged like an estimate; negative: none yet
         ("timer", "i8"),  # cycle of the last harvest or store, NEVER if none
         ("label", "i8"),
         ("waiting", "i8"),  # 1 while it waits at the cache
@@ -140,6 +159,8 @@ CHART = np.dtype(
     [
         ("shades", "f8", len(Ground)),  # of the floor
         ("lamps", "f8", len(Ground)),  # rad, direction of the lamp from the middle of the areas and zones
+        ("lamp_behind", "f8"),  # cosine: the lamp lies so far behind at the end of the corridor's bottom
+        ("subtasks", "i8"),  # areas in a row
         ("cycle_time", "f8"),  # s
     ],
     align=True,

@@ -10,14 +10,13 @@ from formicarium.compiled import compiled
 from formicarium.control.moves import drive, steer
 from formicarium.robots.epuck import PROXIMITY_COSINES, PROXIMITY_SINES
 from formicarium.streams import advanced, uniform
-from formicarium.systems.partitioning.memory import NEVER, Ground
+from formicarium.systems.partitioning.memory import NEVER, Area, Ground
 
 FORWARD = 0.0  # rad, from source to nest
 AWAY = 0.5 * math.pi  # from the lamp
 BACK = math.pi
 DOWN = -0.5 * math.pi
 AHEAD = 0.6  # cosine of a sensor's angle from which on it looks ahead
-BEHIND_LAMP = 0.866  # cosine: the lamp lies so far behind at the end of the corridor's bottom
 
 
 @compiled
@@ -112,34 +111,46 @@ def back_off(reading, memory, table):
 @compiled
 def is_area(place):
     """Tell whether a place is outside the corridor."""
-    return place != Ground.LEFT_LEG and place != Ground.BOTTOM and place != Ground.RIGHT_LEG
+    in_corridor = place == Ground.LEFT_LEG or place == Ground.BOTTOM or place == Ground.RIGHT_LEG
+    return not in_corridor and place != Ground.MIDDLE_LEG and place != Ground.CROSSING
 
 
 @compiled
-def corridor_heading(memory, to_nest):
-    """Return where to go from here to get through the corridor: down, along the bottom, up.
+def corridor_heading(memory, chart, area):
+    """Return where to go from here to get to an area through the corridor: down, along the bottom, up.
 
-    Along the bottom the lamp tells when to turn: at the end it lies well behind.
+    Along the bottom the lamp tells when to turn: at the end it lies well behind, and it stands before the middle leg.
     """
-    side = 1.0 if to_nest else -1.0
     place = memory.ground
     if place == Ground.DROP_ZONE:
-        return DOWN - 0.8 if to_nest else BACK
+        return BACK if area == Area.SOURCE else DOWN - 0.8
     if place == Ground.PICK_ZONE:
-        return FORWARD if to_nest else DOWN + 0.8
+        return FORWARD if area == Area.NEST else DOWN + 0.8
     if place == Ground.SOURCE_AREA or place == Ground.LEFT_LEG:
-        return DOWN if to_nest else AWAY
+        return AWAY if area == Area.SOURCE else DOWN
     if place == Ground.NEST_AREA or place == Ground.RIGHT_LEG:
-        return AWAY if to_nest else DOWN
-    if math.cos(memory.compass + memory.lamp) * side < -BEHIND_LAMP:
+        return AWAY if area == Area.NEST else DOWN
+    if place == Ground.MIDDLE_PICK_ZONE:
+        return FORWARD if area == Area.MIDDLE else DOWN + 0.8
+    if place == Ground.MIDDLE_DROP_ZONE:
+        return BACK if area == Area.MIDDLE else DOWN - 0.8
+    if place == Ground.MIDDLE_AREA or place == Ground.MIDDLE_LEG:
+        return AWAY if area == Area.MIDDLE else DOWN
+    lamp_ahead = math.cos(memory.compass + memory.lamp)
+    if area == Area.MIDDLE:
+        if place == Ground.CROSSING:
+            return AWAY
+        return FORWARD if lamp_ahead > 0.0 else BACK
+    side = 1.0 if area == Area.NEST else -1.0
+    if lamp_ahead * side < -chart.lamp_behind:
         return AWAY
-    return FORWARD if to_nest else BACK
+    return FORWARD if area == Area.NEST else BACK
 
 
 @compiled
-def follow_corridor(reading, memory, command, table, epuck, to_nest):
+def follow_corridor(reading, memory, command, table, chart, epuck, area):
     """Walk through the corridor, on the path where it is found, back to it where it was left."""
-    heading = corridor_heading(memory, to_nest)
+    heading = corridor_heading(memory, chart, area)
     if not is_area(memory.ground):
         unseen = reading.cycle - memory.path_seen
         if unseen > table.path_patience:

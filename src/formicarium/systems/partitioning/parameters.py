@@ -45,6 +45,12 @@ class ArenaTable(Table):
     path_shade: float = number(1.0, "1", "of the path, which runs through the corridor only")
     friction: float = number(0.1, "1", "of walls and booths; matters with contact dynamics only [model]", ge=0)
 
+    # Beyond the paper.
+    subtasks: int = number(
+        2, "1", "areas in a row, a cache between neighbours; 3: as many sub-tasks, width grows [TP-O1]", ge=2, le=3
+    )
+    middle_width: float = number(0.80, "m", "of the area between two caches [choice]", ge=0.6, le=2)
+
 
 # Rows: the arena lying on its side.
 LANDSCAPE = {
@@ -130,6 +136,22 @@ class StrategyTable(Table):
         100.0, "s", "to here [paper]; that of the whole task: from and to twice as much", gt=0
     )
     least_probability: float = number(1e-12, "1", "P_p is kept so far from 0 and 1 [choice TP-12, U22]", ge=0, le=0.1)
+
+    # Beyond the paper; all off.
+    social_weight: float = number(
+        0.0, "1", "most that a neighbour's fresh time counts against one's own; 0: nobody talks [TP-O3]", ge=0, le=1
+    )
+    social_range: float = number(0.5, "m", "robots in line of sight hear each other so far [TP-O3]", gt=0, le=1)
+    social_period: float = number(10.0, "s", "between two utterances of a robot [choice]", ge=0.1, le=10000)
+    social_age: float = number(600.0, "s", "a time so old counts half of a fresh one [choice]", gt=0)
+    steepness_most: float = number(
+        0.0, "1", "S = this / (1 + own stay in cache booths / steepness_time); 0: S is fixed; 10 [TP-O4]", ge=0, le=1000
+    )
+    steepness_time: float = number(50.0, "s", "stay at which S is half of steepness_most [TP-O4]", gt=0)
+    exploration_age: float = number(
+        0.0, "s", "a time measured longer ago makes a robot try the way that measures it; 0: never [TP-O5]", ge=0
+    )
+    exploration_share: float = number(0.2, "1", "with at least this probability [choice]", ge=0, le=0.5)
 
     @classmethod
     def layout(cls) -> np.dtype:

@@ -80,6 +80,8 @@ def keep_heading(memory, table, chart):
     place = memory.ground
     if place < 0 or place == Ground.LEFT_LEG or place == Ground.BOTTOM or place == Ground.RIGHT_LEG:
         return
+    if place == Ground.MIDDLE_LEG or place == Ground.CROSSING:
+        return
     by_lamp = chart.lamps[place] - memory.lamp
     if memory.oriented == 0:
         memory.compass = wrapped(by_lamp)

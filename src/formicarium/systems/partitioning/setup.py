@@ -11,10 +11,10 @@ from formicarium.devices.depot import DEPOT, INTERFACING
 from formicarium.observers.objects import VISIT
 from formicarium.physics.records import records
 from formicarium.physics.world import World, make_world
-from formicarium.robots.forager import COMMAND, GRIP, LAMP, NICHE_LIGHT, READING
+from formicarium.robots.forager import COMMAND, GRIP, LAMP, NICHE_LIGHT, READING, VOICE
 from formicarium.robots.records import Colour
 from formicarium.streams import generator, stream, uniform
-from formicarium.systems.partitioning.arena import Arena, Box, make_arena
+from formicarium.systems.partitioning.arena import Arena, Box, make_arena, shades_of, total_width
 from formicarium.systems.partitioning.measures import SEEN
 from formicarium.systems.partitioning.memory import CHART, MEMORY, NEVER, Ground
 from formicarium.systems.partitioning.parameters import PartitioningParameters
@@ -25,6 +25,9 @@ from formicarium.trial.setup import APART, PLACING_ATTEMPTS, WALL_MARGIN, NoRoom
 EVENTS_PER_LOOK = 100  # room in the log for each robot and each booth in one look of 100 cycles
 LIGHT_OFF_WALL = 0.004  # m, from the bay's back wall, which would hide it otherwise
 LEAST_REACH = 0.3  # m, of the neighbour lists, however short the camera's range
+NO_SHADE = 1e9  # of parts of the floor that are not there
+BEHIND_LAMP = 0.866  # cosine: the lamp lies so far behind at the end of the corridor's bottom
+INTO_LEG = 0.09  # m, from a leg's inner wall to where that cosine is read, on the path
 SUBSTEPS = 10  # physics steps in a cycle, with contact dynamics [model]
 
 
@@ -38,6 +41,7 @@ class PartitioningState(NamedTuple):
     memories: np.recarray  # MEMORY (N,)
     commands: np.recarray  # COMMAND (N,)
     grips: np.recarray  # GRIP (N,)
+    voices: np.recarray  # VOICE (N,)
     depots: np.recarray  # DEPOT (B,)
     pairs: np.recarray  # PAIR (c,)
     lights: np.recarray  # NICHE_LIGHT (B,), one a booth
@@ -93,8 +97,9 @@ def begin(
         memories=make_memories(crew.robots, p, seed),
         commands=records(COMMAND, count),
         grips=records(GRIP, count),
+        voices=records(VOICE, count),
         depots=depots,
-        pairs=records(PAIR, p.arena.cache_pairs),
+        pairs=records(PAIR, p.arena.cache_pairs * (p.arena.subtasks - 1)),
         lights=lights,
         floor=arena.floor,
         lamp=lamp,
@@ -121,12 +126,18 @@ def make_seen(count: int) -> np.recarray:
 def start_places(arena: Arena, count: int, seed: int) -> np.ndarray:
     """Return (N, 3) places and headings: half of the robots in the nest area, the odd one in the source area.
 
+    With three areas a third is in each, what is left over in the source area.
+
     Raises:
         NoRoom: if they do not fit.
     """
     draws = generator(seed, "layout")
     places: list[tuple[float, float, float]] = []
-    for number, area in ((count - count // 2, arena.source_area), (count // 2, arena.nest_area)):
+    areas = [arena.source_area, arena.nest_area]
+    if arena.middle_area is not None:
+        areas.append(arena.middle_area)
+    share = count // len(areas)
+    for number, area in zip((count - share * (len(areas) - 1), share, share), areas, strict=False):
         wanted = len(places) + number
         for _ in range(PLACING_ATTEMPTS):
             if len(places) == wanted:
@@ -158,9 +169,13 @@ def make_memories(robots: np.recarray, p: PartitioningParameters, seed: int) -> 
         memory.patience = stream(seed, "patience", key)
         memory.harvest = low + span * uniform(stream(seed, "estimate of harvesting", key))
         memory.store = low + span * uniform(stream(seed, "estimate of storing", key))
+        if p.arena.subtasks == 3:
+            memory.middle = low + span * uniform(stream(seed, "estimate of the middle", key))
         memory.whole = 2.0 * (low + span * uniform(stream(seed, "estimate of the whole", key)))
         memory.look_side = 1.0
         memory.ground = -1
+        memory.measured_at[:] = NEVER
+        memory.stay = -1.0
         for name in ("timer", "deed_cycle", "path_seen", "swerve_until", "escape_until", "roam_until", "target_seen"):
             memory[name] = NEVER
     return memories
@@ -194,24 +209,26 @@ def make_interfacing(p: PartitioningParameters) -> np.recarray:
 def make_chart(p: PartitioningParameters, arena: Arena) -> np.recarray:
     """Return what robots are told of the arena: shades, and where the lamp is seen from areas and zones."""
     chart = records(CHART, 1)
-    t = p.arena
-    shades = {
-        Ground.SOURCE_AREA: t.source_shade,
-        Ground.DROP_ZONE: t.drop_zone_shade,
-        Ground.LEFT_LEG: t.left_leg_shade,
-        Ground.BOTTOM: t.bottom_shade,
-        Ground.RIGHT_LEG: t.right_leg_shade,
-        Ground.PICK_ZONE: t.pick_zone_shade,
-        Ground.NEST_AREA: t.nest_shade,
-    }
-    for ground, shade in shades.items():
+    t, width = p.arena, total_width(p.arena)
+    chart[0].shades[:] = NO_SHADE
+    for ground, shade in shades_of(t).items():
         chart[0].shades[ground] = shade
     left, bottom, right, top = arena.source_area
     y = 0.5 * (bottom + top)
     across = {Ground.SOURCE_AREA: 0.5 * (left + right - t.zone_depth), Ground.DROP_ZONE: right - 0.5 * t.zone_depth}
+    if arena.middle_area is not None:
+        left, _, right, _ = arena.middle_area
+        across[Ground.MIDDLE_PICK_ZONE] = left + 0.5 * t.zone_depth
+        across[Ground.MIDDLE_AREA] = 0.5 * (left + right)
+        across[Ground.MIDDLE_DROP_ZONE] = right - 0.5 * t.zone_depth
     for ground, x in across.items():
         chart[0].lamps[ground] = math.atan2(arena.lamp[1] - y, arena.lamp[0] - x)
     chart[0].lamps[Ground.NEST_AREA] = -math.pi - chart[0].lamps[Ground.SOURCE_AREA]
     chart[0].lamps[Ground.PICK_ZONE] = -math.pi - chart[0].lamps[Ground.DROP_ZONE]
+    chart[0].lamp_behind = BEHIND_LAMP
+    if t.subtasks == 3:
+        away = 0.5 * width - t.leg_width + INTO_LEG
+        chart[0].lamp_behind = away / math.sqrt(away**2 + (0.5 * t.bottom_width) ** 2)
+    chart[0].subtasks = t.subtasks
     chart[0].cycle_time = p.swarm.cycle_time
     return chart

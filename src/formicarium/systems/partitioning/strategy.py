@@ -39,3 +39,38 @@ def giving_up_probability(waited, own, harvest, store, steepness, offset):
     With K < 0 it grows with the time waited (TP-15).
     """
     return logistic(-steepness * ((waited - own) / (harvest + store) + offset))
+
+
+@compiled
+def steepness_of(strategy, stay):
+    """Return S: fixed, or after the robot's own stays in cache booths (TP-O4): S_most / (1 + stay / time)."""
+    if strategy.steepness_most > 0.0 and stay >= 0.0:
+        return strategy.steepness_most / (1.0 + stay / strategy.steepness_time)
+    return strategy.steepness
+
+
+@compiled
+def explored(probability, corridor_age, cache_age, strategy):
+    """Return P_p, kept so far from certainty that what was measured long ago is measured again (TP-O5).
+
+    Args:
+        probability: P_p of equation 1.
+        corridor_age: s since what the corridor leads to was measured.
+        cache_age: s since what the cache leads to was.
+        strategy: record of StrategyTable.
+    """
+    if strategy.exploration_age > 0.0:
+        if corridor_age > strategy.exploration_age:
+            probability = min(probability, 1.0 - strategy.exploration_share)
+        if cache_age > strategy.exploration_age:
+            probability = max(probability, strategy.exploration_share)
+    return probability
+
+
+@compiled
+def blended(own, heard, age, strategy):
+    """Return an estimate after hearing a neighbour's, which counts the less the older it is (TP-O3).
+
+    (1 - w) t + w t_heard, w = beta / (1 + age / social_age).
+    """
+    return renewed(own, heard, strategy.social_weight / (1.0 + age / strategy.social_age))

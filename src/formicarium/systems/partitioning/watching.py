@@ -130,6 +130,8 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
         "deed": lambda value: Deed(int(value)).name.lower(),
         "updated": lambda value: Estimate(int(value)).name.lower(),
         "measured": seconds,
+        "stay": seconds,
+        "measured_at": lambda value: ", ".join(moment(cycle) for cycle in value[1:]),
         "path_side": lambda value: "left" if value > 0 else "right" if value < 0 else "unknown",
     }
 
@@ -180,6 +182,10 @@ def tell(event: Any) -> str:
             return f"{who} dies"
         case EventKind.PROBABILITY:
             return f"{who} decides with probability {value / 1e6:.3f}"
+        case EventKind.PASSED_ON:
+            return f"{who} has passed an object on, {TRIPS[Label(subject)]}"
+        case EventKind.ESTIMATES:
+            return f"{who} reckons {subject}, {value} and {detail} cycles to harvest, to store and for the whole"
         case _:
             return f"{who}: {ROLES[Role(value)]}"
 

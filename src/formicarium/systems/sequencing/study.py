@@ -12,6 +12,7 @@ from formicarium.systems.sequencing.arena import make_arena
 from formicarium.systems.sequencing.loop import run
 from formicarium.systems.sequencing.measures import EventKind, outcome
 from formicarium.systems.sequencing.memory import Role
+from formicarium.systems.sequencing.onboard import ONBOARD
 from formicarium.systems.sequencing.parameters import (
     SequencingParameters,
     mark_i3_parameters,
@@ -143,6 +144,7 @@ def system(name: str, summary: str, configure: Callable[..., SequencingParameter
         begin=begin,
         advance=run,
         roles=frame_roles,
+        onboard=ONBOARD,
         watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
     )
 

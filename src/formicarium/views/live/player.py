@@ -129,7 +129,7 @@ class Player:
             self._debt = 0.0
             return False
         if self.speed == 0:
-            return self._sprint(10**12)
+            return self._sprinted(10**12) > 0
         self._debt = min(self._debt + passed * self.speed / self._cycle_time, self.speed / self._cycle_time)
         cycles = int(self._debt)
         if cycles:
@@ -139,13 +139,10 @@ class Player:
 
     def _approach(self) -> bool:
         assert self._target is not None
-        self._sprint(self._target - self.session.cycle)
+        self._sprinted(self._target - self.session.cycle)
         if self.session.cycle >= self._target or self.session.finished:
             self._target = None
         return True
-
-    def _sprint(self, cycles: int) -> bool:
-        return self._sprinted(cycles) > 0
 
     def _sprinted(self, cycles: int) -> int:
         """Run up to so many cycles, but not longer than a slice; return how many."""

@@ -111,7 +111,12 @@ class Session:
         """Load or compile the code, on a state that is then let go, so that nobody waits for it later."""
         begin, run, watching = watching_of(self.system)
         spare = begin(self.parameters, 0)
-        run(spare, 1)
+        try:
+            run(spare, 1)
+        except Exception as error:
+            if self.system.explained is None:
+                raise
+            raise self.system.explained(self.parameters, 0, 0, error) from error
         watching.roll(spare, 1, 1, make_film(1, len(self.identity), self.scene))
         watching.shoot(spare, make_film(1, len(self.identity), self.scene))
 

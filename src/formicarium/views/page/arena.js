@@ -1,6 +1,7 @@
 // The arena from above on a canvas: what does not move is drawn once, robots are stamps that are made once.
 
 const TRAIL = 150; // cycles that a trail lasts
+const GAP = 50; // cycles between two pictures, over which no trail is drawn
 const MOST_PLACES = 80; // of one trail
 const STAMP_SCALES = [24, 40, 64, 96, 160]; // pixels across a stamped robot
 
@@ -39,7 +40,7 @@ export class Arena {
   resize() {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (!this.scene || !width) return;
+    if (!this.scene || !width || !height) return;
     for (const canvas of [this.canvas, this.still]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
@@ -243,15 +244,13 @@ export class Arena {
   }
 
   remember(shown, cycle) {
-    if (!this.trails || this.trails.length !== shown.x.length || cycle < this.trailed) {
+    if (!this.trails || cycle < this.trailed || cycle > this.trailed + GAP) {
       this.trails = Array.from(shown.x, () => []);
       this.trailed = -1e9;
     }
     if (cycle - this.trailed < 3) return;
     this.trailed = cycle;
     this.trails.forEach((trail, i) => {
-      const last = trail.at(-1);
-      if (last && Math.hypot(last[0] - shown.x[i], last[1] - shown.y[i]) > 1) trail.length = 0;
       trail.push([shown.x[i], shown.y[i], cycle]);
       while (trail.length > MOST_PLACES || trail[0][2] < cycle - TRAIL) trail.shift();
     });
@@ -278,7 +277,7 @@ export class Arena {
 
   // shown: {x, y, heading} as they are drawn now; frame: the frame they belong to.
   draw(shown, frame, seconds) {
-    if (!this.scene || !this.canvas.width) return;
+    if (!this.scene || !this.still.width || !this.whole) return;
     this.shown = shown;
     const context = this.canvas.getContext("2d"), { x, y, heading } = shown, { role, carried, joined } = frame;
     const radius = this.scene.radius, count = x.length;
@@ -383,18 +382,19 @@ export class Arena {
 
   drawPackets(context, packets, x, y, seconds) {
     const pairs = [];
-    context.fillStyle = this.accent;
-    context.beginPath();
     for (let k = 0; k < packets.length; k += 2) {
       const [to, from] = [packets[k], packets[k + 1]];
       if (this.selected >= 0 && to !== this.selected && from !== this.selected) continue;
-      pairs.push([x[from], y[from], x[to], y[to]]);
-      const t = (seconds * 1.6 + (to * 0.37 + from * 0.61)) % 1;
-      const [px, py] = this.at(x[from] + t * (x[to] - x[from]), y[from] + t * (y[to] - y[from]));
+      pairs.push([x[from], y[from], x[to], y[to], to * 0.37 + from * 0.61]);
+    }
+    this.lines(context, pairs, this.accent, this.ratio, 0.28);
+    context.fillStyle = this.accent;
+    context.beginPath();
+    for (const [ax, ay, bx, by, start] of pairs) {
+      const t = (seconds * 1.6 + start) % 1, [px, py] = this.at(ax + t * (bx - ax), ay + t * (by - ay));
       context.moveTo(px + 2.6 * this.ratio, py);
       context.arc(px, py, 2.6 * this.ratio, 0, 2 * Math.PI);
     }
-    this.lines(context, pairs, this.accent, this.ratio, 0.28);
     context.fill();
   }
 

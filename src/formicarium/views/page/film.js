@@ -34,7 +34,7 @@ export function openFilm(told) {
     told.frame({
       cycle: Math.round(state.cycle), x: mix("x", film.place), y: mix("y", film.place), heading: mix("heading", film.turn),
       packets: [], joined: rows("joined", k), role: rows("role", k), carried: rows("carried", k), colour: [],
-      lit: rows("lit", k), jump: true && jump,
+      lit: rows("lit", k), jump,
     });
   }
 

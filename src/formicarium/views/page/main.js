@@ -5,9 +5,11 @@ import { openFilm } from "./film.js";
 import { connect } from "./live.js";
 import { clock, element, showEvents, showInspection, showLegend, showMarks } from "./panels.js";
 
+const LISTING = 300; // ms between two listings of the events while the trial runs
+
 const find = (id) => document.getElementById(id);
 const arena = new Arena(find("arena"));
-const now = { events: [], hands: [], status: {}, frame: null, before: null, arrived: 0, interval: 100, selected: 0 };
+const now = { events: [], hands: [], status: {}, frame: null, before: null, arrived: 0, listed: 0, interval: 100, selected: 0 };
 let hello = null;
 let scrubbing = false;
 let listed = "";
@@ -34,6 +36,7 @@ const told = {
       showBlocked();
     }
     document.querySelector("[data-layer=packets]").hidden = !content.radio;
+    document.querySelector("[data-layer=chain]").hidden = !content.styles.some((style) => style.chained);
     if (!content.touchable) {
       find("inside").firstElementChild.textContent = "Recorded frames hold places, headings and roles, not what is in a robot.";
     }
@@ -50,6 +53,7 @@ const told = {
     }
     if (!now.frame || frame.cycle !== now.frame.cycle || frame.jump) now.arrived = time;
     now.frame = frame;
+    if (frame.joined.some((other) => other >= 0)) document.querySelector("[data-layer=chain]").hidden = false;
     find("time").value = clock(frame.cycle * hello.scene.cycle_time, true);
     if (!scrubbing) find("scrub").value = frame.cycle;
     arena.stale = true;
@@ -70,7 +74,7 @@ const told = {
     now.hands = status.interventions.map(([cycle, deed, subject]) => [cycle, "you", subject, `you ${deed} ${nameOf(deed, subject)}`]);
     if (JSON.stringify(before.interventions) !== JSON.stringify(status.interventions)) arena.stale = true;
     showBlocked();
-    list();
+    if (!status.playing || performance.now() - now.listed > LISTING) list();
   },
   events({ again, rows }) {
     if (again) [now.events, now.size] = [[], ""];
@@ -112,7 +116,7 @@ function ask(wish) {
 function blended(time) {
   const { frame, before } = now;
   if (!before) return frame;
-  const t = Math.min((time - now.arrived) / Math.max(now.interval, 8), 1);
+  const t = Math.min(Math.max((time - now.arrived) / Math.max(now.interval, 8), 0), 1); // a frame may come after ``time``
   if (t >= 1) return frame;
   const mix = (a, b) => b.map((value, i) => a[i] + t * (value - a[i]));
   return { x: mix(before.x, frame.x), y: mix(before.y, frame.y), heading: mix(before.heading, frame.heading) };
@@ -130,6 +134,7 @@ function draw(time) {
 }
 
 function list() {
+  now.listed = performance.now();
   const kind = find("kinds").value, cycle = now.status.cycle ?? 0;
   const size = `${now.events.length}/${now.hands.length}/${now.status.turns}`;
   if (now.size !== size) {

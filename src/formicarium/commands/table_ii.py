@@ -1,0 +1,139 @@
+"""The published study of task schedules: its campaigns joined to its tables and figures."""
+
+import os
+import sys
+from pathlib import Path
+
+from rich.console import Console
+
+from formicarium.campaigns import table
+from formicarium.campaigns.coordinator import run_campaign
+from formicarium.campaigns.files import write_text
+from formicarium.campaigns.ledger import Ledger
+from formicarium.campaigns.provenance import session
+from formicarium.campaigns.tidy import tidy
+from formicarium.campaigns.workers import Processes
+from formicarium.campaigns.writer import Writer
+from formicarium.commands.campaign.answers import write_csv
+from formicarium.commands.campaign.progress import CampaignProgress
+from formicarium.commands.campaign.sitting import terminable
+from formicarium.commands.errors import UserError
+from formicarium.compiled import PACKAGE
+from formicarium.studies.scheduling import (
+    Objective,
+    Row,
+    design_of,
+    figure_7,
+    figure_8,
+    grid,
+    improved,
+    jobs_of,
+)
+
+TABLES: dict[str, tuple[Objective, ...]] = {
+    "table-2-time": ("time",),
+    "table-2-travel": ("travel",),
+    "all": ("time", "travel"),
+}
+LIBRARIES = ("numpy", "numba", "highspy")
+
+
+def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
+    """Solve the instances that are not there yet; return 0 if all are, 1 if some failed.
+
+    Raises:
+        KeyboardInterrupt: on Ctrl-C, with a message that says how to go on; every instance that was done is kept.
+    """
+    if workers is not None and workers < 1:
+        raise UserError(f"--workers {workers}: must be at least 1")
+    if runs is not None and runs < 1:
+        raise UserError(f"--runs {runs}: must be at least 1")
+    return max(_run(objective, folder, runs, workers or os.cpu_count() or 1) for objective in TABLES[figure])
+
+
+def _run(objective: Objective, folder: Path, runs: int | None, workers: int) -> int:
+    design, jobs = design_of(objective, runs), jobs_of(objective, runs)
+    ledger = Ledger(folder / design.name)
+    manifest = {"name": design.name, "system": design.system, "design": design.content()}
+    trouble = Console(stderr=True)
+    with terminable(), Writer(ledger, manifest, jobs) as writer:
+        writer.note_session(session(sys.argv, PACKAGE, LIBRARIES))
+        with CampaignProgress(trouble, design.name) as progress:
+            try:
+                report = run_campaign(jobs, writer, Processes(workers), progress=progress.show)
+            except KeyboardInterrupt:
+                done = sum(ledger.has(key) for job in jobs for key in job.keys)
+                said = (
+                    f"interrupted: {done} instances are done and kept in {ledger.folder}. The same command continues."
+                )
+                raise KeyboardInterrupt(said) from None
+    for run in report.failures[:3]:
+        trouble.print(f"formicarium: seed {run.seed} {run.ending}\n{run.failure}", highlight=False, markup=False)
+    return 0 if report.standing.done == report.standing.total else 1
+
+
+def draw_study(figure: str, folder: Path, runs: int | None) -> int:
+    """Write a table of cells an objective, a row an instance, Figs 7 and 8; return 1 if instances are missing, else 0.
+
+    Raises:
+        UserError: if no instance is there.
+        StoreError: if the folder cannot be read or written.
+    """
+    from formicarium.views.charts import draw_chart
+
+    written, lines, missing = [], [], 0
+    for objective in TABLES[figure]:
+        rows, total = _rows(objective, folder, runs)
+        missing += total - len(rows)
+        if not rows:
+            continue
+        cells = [cell.content(objective) for cell in grid(rows)]
+        written.append(folder / f"table-2-{objective}.csv")
+        write_csv(table.from_rows(cells), written[-1])
+        written.append(folder / f"instances-{objective}.csv")
+        write_csv(table.from_rows([_compact(row) for row in rows]), written[-1])
+        lines += _in_words(objective, rows, total)
+        if objective == "travel":
+            written += [
+                draw_chart(figure_7(rows), folder / "figure-7.png"),
+                draw_chart(figure_8(rows), folder / "figure-8.png"),
+            ]
+    if not written:
+        raise UserError(f"{folder}: no instance of this study is there. Run it first.")
+    write_text(folder / "report.md", "# Task schedules\n\n" + "\n".join(lines) + "\n")
+    screen = Console()
+    for line in lines:
+        screen.print(line, highlight=False, soft_wrap=True)
+    for path in [*written, folder / "report.md"]:
+        screen.print(f"results   {path}", highlight=False, soft_wrap=True)
+    return 1 if missing else 0
+
+
+def _rows(objective: Objective, folder: Path, runs: int | None) -> tuple[list[Row], int]:
+    jobs = jobs_of(objective, runs)
+    ledger = Ledger(folder / design_of(objective, runs).name)
+    return tidy(ledger.rows(), jobs).to_pylist(), sum(len(job.keys) for job in jobs)
+
+
+def _compact(row: Row) -> Row:
+    left_out = ("cell", "replicate", "identity")
+    return {
+        name: float(f"{value:.6g}") if isinstance(value, float) else value
+        for name, value in row.items()
+        if name not in left_out
+    }
+
+
+def _in_words(objective: Objective, rows: list[Row], total: int) -> list[str]:
+    seconds = sorted(row["seconds"] for row in rows)
+    proven = sum(row["ended"] == "proven" for row in rows)
+    words = [
+        f"- {objective}: {len(rows)} of {total} instances solved, {proven} proven ({proven / len(rows):.1%}); "
+        f"processor time median {seconds[len(seconds) // 2]:.2f} s, worst {seconds[-1]:.1f} s; "
+        f"schedules that the checker refuses: {sum(row['faults'] > 0 for row in rows)}",
+    ]
+    if objective == "travel":
+        for name, after, before in (("7", "trip_m", "time_trip_m"), ("8", "relays", "time_relays")):
+            better, count = improved(rows, after, before)
+            words.append(f"- Fig. {name}: less in {better} of {count} instances than in the schedule of least time")
+    return words

@@ -1,0 +1,131 @@
+"""The independent judge of schedules. It shares no code with the solvers and computes in whole numbers only.
+
+Lengths are rounded to nanometres once, and every comparison after that is exact. A schedule may be off by
+``SLACK`` nanometres at each task, because deployment points are written with a finite number of digits.
+"""
+
+import itertools
+from collections.abc import Sequence
+from math import isqrt
+from typing import NamedTuple
+
+from formicarium.scheduling.instance import Instance, Task
+from formicarium.scheduling.schedule import Schedule, Slot
+
+NANOMETRES = 10**9
+SLACK = 1000  # nm
+# cos^2(pi / 8) = (2 + sqrt 2) / 4, rounded up in the tenth digit: the inscribed octagon
+INNER_SQUARE = (2 * 10**10 + isqrt(2 * 10**20) + 1, 4 * 10**10)
+
+
+class Verdict(NamedTuple):
+    """What the judge finds."""
+
+    faults: tuple[str, ...]  # empty: the schedule can be carried out as it says
+    time: float  # completion time, added up again
+    trip: float  # way between deployment points along the axes, m
+    first_trip: float  # way to the first one, m
+    relays: int  # of all arms
+    over_radio: int  # arms that are longer than the radio reaches in a straight line, whatever was asked for
+
+
+def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_limit: float | None = None) -> Verdict:
+    """Judge a schedule against everything that the instance demands.
+
+    Args:
+        instance: what was to be scheduled.
+        schedule: what came of it.
+        reach: "printed", "inscribed" or "euclid", see (7) to (9) of the paper.
+        time_limit: that the completion time must not exceed.
+    """
+    tasks = {task.name: task for task in instance.tasks}
+    faults = _faults_of_cover(instance, schedule)
+    over_radio = 0
+    for number, slot in enumerate(schedule.slots, 1):
+        present = [tasks[arm.task] for arm in slot.arms if arm.task in tasks]
+        faults += [f"slot {number}: {fault}" for fault in _faults_of_slot(instance, slot, present)]
+        for arm in slot.arms:
+            if arm.task not in tasks:
+                continue
+            if arm.relays < 0 or arm.relays % instance.paths:
+                faults.append(f"slot {number}: {arm.task}: {arm.relays} relays are no {instance.paths} equal paths")
+            if not _reached(instance, slot, tasks[arm.task], arm.relays, reach):
+                faults.append(f"slot {number}: {arm.task} is out of reach with {arm.relays} relays ({reach})")
+            over_radio += not _reached(instance, slot, tasks[arm.task], arm.relays, "euclid")
+    place = {arm.task: number for number, slot in enumerate(schedule.slots) for arm in slot.arms}
+    for first, second in instance.priorities:
+        if first in place and second in place and place[first] >= place[second]:
+            faults.append(f"{first} is not done before {second}")
+    time = sum(
+        max((tasks[arm.task].duration for arm in s.arms if arm.task in tasks), default=0.0) for s in schedule.slots
+    )
+    if time_limit is not None and time > time_limit + 1e-6:
+        faults.append(f"takes {time}, more than {time_limit}")
+    points = [(_nano(slot.x), _nano(slot.y)) for slot in schedule.slots]
+    trip = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in itertools.pairwise(points))
+    start = (_nano(instance.start[0]), _nano(instance.start[1]))
+    outward = abs(points[0][0] - start[0]) + abs(points[0][1] - start[1]) if points else 0
+    relays = sum(arm.relays for slot in schedule.slots for arm in slot.arms)
+    return Verdict(tuple(faults), time, trip / NANOMETRES, outward / NANOMETRES, relays, over_radio)
+
+
+def _nano(length: float) -> int:
+    return round(length * NANOMETRES)
+
+
+def _faults_of_cover(instance: Instance, schedule: Schedule) -> list[str]:
+    done = [arm.task for slot in schedule.slots for arm in slot.arms]
+    known = {task.name for task in instance.tasks}
+    faults = [f"{name} is done {done.count(name)} times" for name in sorted(set(done)) if done.count(name) > 1]
+    faults += [f"{name} is no task" for name in sorted(set(done) - known)]
+    faults += [f"{name} is never done" for name in sorted(known - set(done))]
+    return faults + [f"slot {number} is empty" for number, slot in enumerate(schedule.slots, 1) if not slot.arms]
+
+
+def _faults_of_slot(instance: Instance, slot: Slot, present: Sequence[Task]) -> list[str]:
+    faults = []
+    demanded = sum(task.robots for task in present) + sum(arm.relays for arm in slot.arms)
+    swarm = sum(team.robots for team in instance.teams)
+    if demanded > swarm - 1:
+        faults.append(f"{demanded} robots are needed beside the master, there are {swarm - 1}")
+    if lacking := _lacking(instance, present):
+        faults.append(f"{lacking} robots with the right capabilities are lacking")
+    x0, y0, x1, y1 = map(_nano, instance.region)
+    x, y = _nano(slot.x), _nano(slot.y)
+    if not (x0 - SLACK <= x <= x1 + SLACK and y0 - SLACK <= y <= y1 + SLACK):
+        faults.append("the deployment point is outside the region")
+    longest = max((task.duration for task in present), default=0.0)
+    if abs(slot.duration - longest) > 1e-9:
+        faults.append(f"lasts {slot.duration}, its longest task {longest}")
+    return faults
+
+
+def _lacking(instance: Instance, present: Sequence[Task]) -> int:
+    """Return how many demanded robots find no place, by a largest assignment (augmenting paths)."""
+    seats = [task for task in present for _ in range(task.robots)]
+    crew = [team for team in instance.teams for _ in range(team.robots)]
+    holder: dict[int, int] = {}  # robot -> seat
+
+    def seated(seat: int, tried: set[int]) -> bool:
+        for robot, team in enumerate(crew):
+            if robot not in tried and seats[seat].needs <= team.abilities:
+                tried.add(robot)
+                if robot not in holder or seated(holder[robot], tried):
+                    holder[robot] = seat
+                    return True
+        return False
+
+    return sum(not seated(seat, set()) for seat in range(len(seats)))
+
+
+def _reached(instance: Instance, slot: Slot, task: Task, relays: int, reach: str) -> bool:
+    hops = relays // instance.paths + 1
+    radius = hops * _nano(instance.spacing) + SLACK
+    across, up = abs(_nano(task.x) - _nano(slot.x)), abs(_nano(task.y) - _nano(slot.y))
+    if reach == "euclid":
+        return across**2 + up**2 <= radius**2
+    square = radius**2
+    over, under = INNER_SQUARE if reach == "inscribed" else (1, 1)
+    return all(2 * value * under <= 2 * square * over for value in (across**2, up**2)) and (
+        (across + up) ** 2 * under <= 2 * square * over
+    )

@@ -1,0 +1,141 @@
+"""Total Completion Time Minimisation (TCTM), (4): the least sum of slots, and the proof that it is the least.
+
+First a schedule by first fit, then lower bounds layer by layer, then the best choice among the sets that pricing
+came across; if bound and schedule still differ, all sets that a better schedule could use.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from formicarium.scheduling.clock import Clock, OutOfTime
+from formicarium.scheduling.covering import Cover, Covering, Layer, Set
+from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.enumeration import sets_below
+from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
+from formicarium.scheduling.precedence import longest_chain
+from formicarium.scheduling.problem import Problem
+
+MOST_SETS = 150_000  # of an enumeration
+SHARE = 0.5  # of the time that is left, for all layers together
+CHOOSING = 0.25  # of the time that is left, for a choice among known sets
+
+
+class Completion(NamedTuple):
+    """What is known of the least completion time, in ticks."""
+
+    slots: Slots
+    value: int
+    bound: int
+    proof: str  # which part made the bound
+
+
+class Search:
+    """The state of a search for the least completion time; can be stopped at any moment."""
+
+    def __init__(self, problem: Problem, places: Places, clock: Clock):
+        """Begin with first fit and the longest chain of priorities."""
+        self.problem, self.places, self.clock = problem, places, clock
+        slots = first_fit(problem, places)
+        value = ticks_of(problem, slots)
+        chain = max(longest_chain(problem), int(problem.ticks.max()))
+        self.best = Completion(slots, value, chain, "longest chain")
+        self._tell("first fit")
+
+    def run(self) -> None:
+        """Close the gap, or raise OutOfTime."""
+        covering = Covering(self.problem, self.clock)
+        covering.add(self.best.slots)
+        layers, cover = self._relax(covering)
+        if self._open():
+            self._choose(covering, layers)
+        if self._open() and cover.converged:
+            self._enumerate(cover, layers)
+
+    def _open(self) -> bool:
+        return self.best.bound < self.best.value
+
+    def _tell(self, part: str) -> None:
+        self.clock.tell(part, self.best.bound * self.problem.unit, self.best.value * self.problem.unit)
+
+    def _relax(self, covering: Covering) -> tuple[list[Layer], Cover]:
+        """Bound the number of slots that last at least so long, from the longest tasks to all, then the time."""
+        problem = self.problem
+        lengths = [int(ticks) for ticks in np.unique(problem.ticks)]
+        everything = np.arange(problem.size)
+        if len(lengths) == 1:
+            cover = covering.relax(everything, [Layer(lengths[0], 0)], self.best.value, self._share(1), lengths[0])
+            self._raise_bound(cover.bound, "covering")
+            return [Layer(lengths[0], self.best.bound // lengths[0])], cover
+        layers: list[Layer] = []
+        for number, length in enumerate(reversed(lengths)):
+            tasks = np.flatnonzero(problem.ticks >= length)
+            slots = sum(problem.ticks[list(slot)].max() >= length for slot in self.best.slots)
+            cover = covering.relax(tasks, [Layer(1, 0)], float(slots), self._share(len(lengths) - number + 1))
+            least = max(int(np.ceil(cover.bound - 1e-6)), layers[0].least if layers else 1)
+            layers.insert(0, Layer(length, least))
+            self.clock.check()
+        steps = np.diff([0, *lengths])
+        self._raise_bound(sum(step * layer.least for step, layer in zip(steps, layers)), "duration layers")
+        if self._open():
+            self._choose(covering, layers, 0.1)
+        cover = covering.relax(everything, layers, self.best.value, self._share(1))
+        self._raise_bound(cover.bound, "covering with duration layers")
+        return layers, cover
+
+    def _share(self, parts: int) -> float:
+        return SHARE * self.clock.left / parts
+
+    def _raise_bound(self, bound: float, proof: str) -> None:
+        whole = int(np.ceil(bound - 1e-6))
+        if whole > self.best.bound:
+            self.best = self.best._replace(bound=min(whole, self.best.value), proof=proof)
+        self._tell(proof)
+        self.clock.check()
+
+    def _improve(self, slots: Slots | None, part: str) -> None:
+        if slots is not None and (value := ticks_of(self.problem, slots)) < self.best.value:
+            self.best = self.best._replace(slots=slots, value=value)
+        self._tell(part)
+        self.clock.check()
+
+    def _choose(self, covering: Covering, layers: list[Layer], share: float = CHOOSING) -> None:
+        seconds = min(60.0, share * self.clock.left)
+        known = [(layer.ticks, layer.least) for layer in layers]
+        slots, _ = choose(self.problem, list(covering.sets), seconds, self.best.value, known, self.clock)
+        self._improve(slots, "choice among known sets")
+
+    def _enumerate(self, cover: Cover, layers: list[Layer]) -> None:
+        """Choose among all sets whose reduced cost allows a better schedule: then the choice is the proof."""
+        problem, gap = self.problem, self.best.value - 1 - cover.bound
+        paid = np.cumsum(cover.layer_gains)
+        sets: list[Set] = []
+        for layer, price in zip(layers, paid):
+            allowed = problem.ticks <= layer.ticks
+            worth = layer.ticks - price - gap - 1e-6
+            found = sets_below(problem, self.places, cover.gains, worth, layer.ticks, allowed, MOST_SETS)
+            if found is None or len(sets) + len(found) > MOST_SETS:
+                return
+            sets += found
+            self.clock.check()
+        known = [(layer.ticks, layer.least) for layer in layers]
+        slots, bound = choose(problem, sets, self.clock.left, self.best.value, known, self.clock)
+        self._improve(slots, "enumeration")
+        self._raise_bound(min(bound, self.best.value), "enumeration")
+
+
+def least_time(problem: Problem, places: Places, clock: Clock) -> tuple[Completion, str]:
+    """Return the best schedule and bound, and how the work ended: "proven", "time limit" or "interrupted"."""
+    search = Search(problem, places, clock)
+    ended = "time limit"
+    try:
+        search.run()
+    except OutOfTime:
+        pass
+    except KeyboardInterrupt:
+        ended = "interrupted"
+    if search.best.bound >= search.best.value:
+        ended = "proven"
+    elif ended == "time limit" and clock.left > 0:
+        ended = "gave up"
+    return search.best, ended

@@ -1,0 +1,182 @@
+"""HiGHS as this room uses it: one thread, silent, and it hears Ctrl-C and the clock."""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import highspy
+import numpy as np
+
+from formicarium.scheduling.clock import Clock
+
+INFINITY = highspy.kHighsInf
+
+
+class Linear:
+    """A linear programme to which columns are added, solved again from where it was."""
+
+    def __init__(self, lower: Sequence[float]):
+        """Begin with rows that are at least so large, and no column."""
+        self._highs = _quiet()
+        for value in lower:
+            self._highs.addRow(float(value), INFINITY, 0, np.array([], np.int32), np.array([]))
+
+    def add(self, cost: float, rows: Sequence[int]) -> None:
+        """Add a column with coefficient 1 in some rows."""
+        index = np.asarray(rows, np.int32)
+        self._highs.addCol(float(cost), 0.0, INFINITY, len(index), index, np.ones(len(index)))
+
+    def solve(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """Return the least cost, the columns' values and the rows' duals.
+
+        Raises:
+            ArithmeticError: if it has no solution.
+        """
+        self._highs.run()
+        if self._highs.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+            raise ArithmeticError(f"HiGHS: {self._highs.modelStatusToString(self._highs.getModelStatus())}")
+        solution = self._highs.getSolution()
+        value = self._highs.getInfo().objective_function_value
+        return value, np.array(solution.col_value), np.maximum(np.array(solution.row_dual), 0.0)
+
+
+class Mixed:
+    """A mixed-integer programme, row by row."""
+
+    def __init__(self) -> None:
+        """Begin empty."""
+        self._highs = _quiet()
+        self.columns = 0
+
+    def column(self, cost: float, low: float, high: float, whole: bool = False) -> int:
+        """Add a variable and return its number."""
+        self._highs.addCol(cost, low, high, 0, np.array([], np.int32), np.array([]))
+        if whole:
+            self._highs.changeColIntegrality(self.columns, highspy.HighsVarType.kInteger)
+        self.columns += 1
+        return self.columns - 1
+
+    def row(self, low: float, terms: Sequence[tuple[int, float]], high: float) -> None:
+        """Add low <= sum of (variable, coefficient) <= high; a variable may be named more than once."""
+        merged: dict[int, float] = {}
+        for column, factor in terms:
+            merged[column] = merged.get(column, 0.0) + factor
+        index, factors = np.array(list(merged), np.int32), np.array(list(merged.values()), float)
+        self._highs.addRow(low, high, len(index), index, factors)
+
+    def solve(
+        self, clock: Clock, seconds: float = INFINITY, absolute_gap: float = 1e-7, relative_gap: float = 1e-9,
+        cutoff: float | None = None,
+    ) -> tuple[float, np.ndarray | None, float]:  # fmt: skip
+        """Return the best value, the variables (None if there is no solution yet) and the bound.
+
+        Infinite value and bound mean that there is no solution (below the cutoff).
+
+        Raises:
+            KeyboardInterrupt: on Ctrl-C, after HiGHS has ended in good order.
+        """
+        highs, until = self._highs, clock.seconds + min(seconds, clock.left)
+        highs.setOptionValue("mip_abs_gap", absolute_gap)
+        highs.setOptionValue("mip_rel_gap", relative_gap)
+        if cutoff is not None:
+            highs.setOptionValue("objective_bound", cutoff)
+        with _interruptible() as stopped:
+            for event in (highs.cbMipInterrupt, highs.cbSimplexInterrupt):
+                event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.seconds > until))
+            highs.run()
+        info, status = highs.getInfo(), highs.getModelStatus()
+        if status in (highspy.HighsModelStatus.kInfeasible, highspy.HighsModelStatus.kUnboundedOrInfeasible):
+            return INFINITY, None, INFINITY
+        if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
+            return INFINITY, None, info.mip_dual_bound
+        return info.objective_function_value, np.array(highs.getSolution().col_value), info.mip_dual_bound
+
+
+class Small:
+    """Small programmes one after the other, all rows "at most", given as arrays."""
+
+    def __init__(self) -> None:
+        """Prepare."""
+        self._highs = _quiet()
+
+    def solve(
+        self, programme: tuple[np.ndarray, ...], whole: np.ndarray | None, clock: Clock, cutoff: float
+    ) -> tuple[float, np.ndarray | None]:
+        """Return the least cost and the variables; infinite and None if nothing is below the cutoff.
+
+        Args:
+            programme: cost (n,), lower and upper bound (n,) of the variables; starts (m + 1,) of the rows in the
+                next two; variables and coefficients of the rows; limits (m,) of the rows.
+            whole: numbers of the variables that must be whole; None for none.
+            clock: if time runs out the answer is infinite.
+            cutoff: costs that are not below are of no interest.
+        """
+        highs, model = self._highs, highspy.HighsLp()
+        cost, low, high, starts, index, value, limits = programme
+        model.num_col_, model.num_row_ = len(cost), len(limits)
+        model.col_cost_, model.col_lower_, model.col_upper_ = cost, low, high
+        model.row_lower_, model.row_upper_ = np.full(len(limits), -INFINITY), np.asarray(limits, float)
+        model.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+        model.a_matrix_.start_, model.a_matrix_.index_ = starts.astype(np.int32), index.astype(np.int32)
+        model.a_matrix_.value_ = value
+        if whole is not None:
+            kinds = np.full(len(cost), highspy.HighsVarType.kContinuous)
+            kinds[whole] = highspy.HighsVarType.kInteger
+            model.integrality_ = list(kinds)
+        highs.setOptionValue("presolve", "choose" if whole is not None else "off")
+        highs.setOptionValue("objective_bound", cutoff)
+        highs.setOptionValue("mip_rel_gap", 1e-7)
+        highs.setOptionValue("time_limit", float(min(clock.left + 1.0, 1e8)))
+        highs.passModel(model)
+        with _interruptible():
+            highs.run()
+        status, info = highs.getModelStatus(), highs.getInfo()
+        if status in (highspy.HighsModelStatus.kObjectiveBound, highspy.HighsModelStatus.kInfeasible):
+            return INFINITY, None
+        if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
+            if status != highspy.HighsModelStatus.kTimeLimit:
+                raise ArithmeticError(f"HiGHS: {highs.modelStatusToString(status)}")
+            return INFINITY, None
+        return info.objective_function_value, np.array(highs.getSolution().col_value)
+
+
+def _quiet() -> highspy.Highs:
+    with _hushed():
+        highs = highspy.Highs()
+    highs.setOptionValue("output_flag", False)
+    highs.setOptionValue("threads", 1)
+    highs.setOptionValue("parallel", "off")
+    return highs
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Keep the greeting that HiGHS writes on its first use, past Python, from the terminal."""
+    sys.stdout.flush()
+    saved, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        os.dup2(saved, 1)
+        os.close(saved)
+        os.close(nowhere)
+
+
+@contextmanager
+def _interruptible() -> Iterator[list[int]]:
+    """Note a Ctrl-C in the list instead of raising it in the middle of foreign code; raise it at the end."""
+    stopped: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        yield stopped
+        return
+    previous = signal.signal(signal.SIGINT, lambda number, _: stopped.append(number))
+    try:
+        yield stopped
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if stopped:
+        raise KeyboardInterrupt

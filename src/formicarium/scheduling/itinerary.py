@@ -1,0 +1,123 @@
+"""Sets in a given order: the cheapest deployment points and arms, (14), as a small mixed-integer programme.
+
+An arm that ends (dx, dy) from the master is long enough if a dx + b dy <= length for all tangents (a, b) of the unit
+reach: eight for an octagon; of the circle sixteen, and more where a solution sticks out.
+"""
+
+from collections.abc import Sequence
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from formicarium.scheduling.clock import Clock
+from formicarium.scheduling.highs import INFINITY, Small
+from formicarium.scheduling.problem import Problem
+from formicarium.scheduling.reach import EUCLID, INNER, INSCRIBED, TOLERANCE
+
+ROUND_ENOUGH = 2e-7  # of the spacing: how far a point may lie outside of a circle
+MOST_ROUNDS = 30
+
+
+class Itinerary(NamedTuple):
+    """Where the swarm deploys, slot by slot."""
+
+    cost: float  # (14), m
+    points: np.ndarray  # (S, 2), m
+    hops: list[np.ndarray]  # relays of each path to each task, slot by slot
+
+
+def tangents(reach: int) -> np.ndarray:
+    """Return (n, 2) directions (a, b) with a dx + b dy <= length of the arm."""
+    count = 16 if reach == EUCLID else 8
+    angles = 2 * pi * np.arange(count) / count
+    return np.column_stack([np.cos(angles), np.sin(angles)]) / (INNER if reach == INSCRIBED else 1.0)
+
+
+class Itineraries:
+    """Answers for one problem; owns the solver that gives them."""
+
+    def __init__(self, problem: Problem, charge_first: bool, clock: Clock):
+        """Prepare for a problem; ``charge_first``: the way from the start to the first point counts."""
+        self._problem, self._charge_first, self._clock = problem, charge_first, clock
+        self._tangents = tangents(problem.reach)
+        self._solver = Small()
+
+    def bound(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> float:
+        """Return a lower bound of the cost of slots in this order: arms of any length, not whole numbers of hops."""
+        value, _ = self._solver.solve(self._programme(slots, []), None, self._clock, cutoff)
+        return value
+
+    def cheapest(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> Itinerary | None:
+        """Return the cheapest itinerary through slots in this order; None if there is none below the cutoff."""
+        more: list[tuple[int, float, float]] = []
+        for _ in range(MOST_ROUNDS):
+            whole = 2 * len(slots) + np.arange(sum(map(len, slots)))
+            value, amounts = self._solver.solve(self._programme(slots, more), whole, self._clock, cutoff)
+            if amounts is None:
+                return None
+            points = amounts[: 2 * len(slots)].reshape(-1, 2)
+            ends = np.cumsum([len(slot) for slot in slots])
+            hops = np.rint(amounts[whole]).astype(np.int64)
+            if self._problem.reach != EUCLID or not self._add_tangents(slots, points, hops, more):
+                return Itinerary(value, points.copy(), np.split(hops, ends[:-1]))
+        return None
+
+    def _programme(self, slots, more):
+        """Return costs, column bounds and rows: the points, the relays to each task, the steps between points."""
+        problem, count = self._problem, len(slots)
+        tasks = np.array([task for slot in slots for task in slot], np.int64)
+        at = np.repeat(np.arange(count), [len(slot) for slot in slots])
+        n, first_hop, first_step = len(tasks), 2 * count, 2 * count + len(tasks)
+        steps = 2 * (count - 1 + self._charge_first)
+        cost = np.zeros(first_step + steps)
+        cost[first_hop:first_step] = problem.spacing
+        cost[first_step:] = problem.swarm
+        low, high = np.zeros(len(cost)), np.full(len(cost), INFINITY)
+        low[:first_hop], high[:first_hop] = np.tile(problem.region[:2], count), np.tile(problem.region[2:], count)
+        # arms: a x + b y - spacing h <= spacing + a X + b Y
+        kinds = len(self._tangents)
+        task_of, tangent_of = np.repeat(np.arange(n), kinds), np.tile(np.arange(kinds), n)
+        a, b = self._tangents[tangent_of].T
+        if more:
+            task_of = np.concatenate([task_of, [task for task, _, _ in more]]).astype(np.int64)
+            a, b = np.concatenate([a, [x for _, x, _ in more]]), np.concatenate([b, [y for _, _, y in more]])
+        x, y = problem.places[tasks[task_of]].T
+        index = np.column_stack([2 * at[task_of], 2 * at[task_of] + 1, first_hop + task_of])
+        value = np.column_stack([a, b, np.full(len(a), -problem.spacing)])
+        limit = problem.spacing * (1.0 + TOLERANCE) + a * x + b * y
+        # steps: |x' - x| <= g, twice for each axis
+        rows, values, limits = [index], [value], [limit]
+        chain = np.arange(2 * (count - 1))
+        for sign in (1.0, -1.0):
+            rows.append(np.column_stack([chain, chain + 2, first_step + chain]))
+            values.append(np.tile([sign, -sign, -1.0], (len(chain), 1)))
+            limits.append(np.zeros(len(chain)))
+        starts = [3] * sum(map(len, limits))
+        flat_index, flat_value = np.concatenate(rows).reshape(-1), np.concatenate(values).reshape(-1)
+        limits = np.concatenate(limits)
+        if self._charge_first:
+            own = np.array([[0, len(cost) - 2], [1, len(cost) - 1]] * 2).reshape(-1)
+            flat_index = np.concatenate([flat_index, own])
+            flat_value = np.concatenate([flat_value, [1.0, -1.0] * 2, [-1.0, -1.0] * 2])
+            limits = np.concatenate([limits, problem.start, -problem.start])
+            starts += [2] * 4
+        # robots of each slot
+        sums = np.bincount(at, problem.robots[tasks], count)
+        flat_index = np.concatenate([flat_index, first_hop + np.arange(n)])
+        flat_value = np.concatenate([flat_value, np.ones(n)])
+        limits = np.concatenate([limits, (problem.limits[0] - sums) // problem.paths])
+        starts += [len(slot) for slot in slots]
+        return cost, low, high, np.concatenate([[0], np.cumsum(starts)]), flat_index, flat_value, limits
+
+    def _add_tangents(self, slots, points, hops, more) -> bool:
+        """Add a tangent wherever an arm sticks out of its circle, and tell whether one did."""
+        before, number = len(more), 0
+        for slot, tasks in enumerate(slots):
+            for task in tasks:
+                dx, dy = points[slot] - self._problem.places[task]
+                length = float(np.sqrt(dx * dx + dy * dy))
+                if length > (hops[number] + 1 + ROUND_ENOUGH) * self._problem.spacing:
+                    more.append((number, dx / length, dy / length))
+                number += 1
+        return len(more) > before

@@ -1,0 +1,152 @@
+"""Total Dislocation Space Minimisation (TDSM), (14): the shortest tour among the schedules of a completion time."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from formicarium.scheduling.annealing import anneal
+from formicarium.scheduling.branching import Branching, Incumbent
+from formicarium.scheduling.clock import Clock, OutOfTime
+from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.families import MOST_TASKS, Family
+from formicarium.scheduling.gathering import gathering_bound
+from formicarium.scheduling.insertion import Insertions
+from formicarium.scheduling.itinerary import Itineraries, Itinerary
+from formicarium.scheduling.lattice import lattice_of
+from formicarium.scheduling.precedence import closure
+from formicarium.scheduling.problem import Problem
+
+COARSE, FINE = 32, 64  # cells along each side: of the first tours, of the bounds
+ROUNDS, TRIES = 6, 4000  # of annealing; it costs about a second
+MOST_ANNEALED = 62  # tasks
+
+
+class Tour(NamedTuple):
+    """A schedule with its deployment points, and what is known of the best one."""
+
+    slots: list[tuple[int, ...]]
+    way: Itinerary
+    bound: float
+    proof: str
+
+
+def least_travel(
+    problem: Problem, places: Places, slots: list[tuple[int, ...]], ticks: int, charge_first: bool, gap: float,
+    clock: Clock, so_far: str,
+) -> tuple[Tour, str]:  # fmt: skip
+    """Return the best tour and bound, and how the work ended.
+
+    Args:
+        problem: that the tasks belong to.
+        places: its slot oracle.
+        slots: a schedule to begin with.
+        ticks: that a schedule may take.
+        charge_first: whether the way from the start counts.
+        gap: relative distance of value and bound that counts as proven.
+        clock: of the whole work.
+        so_far: how the search for these slots ended.
+    """
+    order = np.argsort(-problem.ticks, kind="stable")
+    place = np.argsort(order)
+    problem = _renumbered(problem, order, place)
+    search = Search(problem, [tuple(sorted(int(place[t]) for t in slot)) for slot in slots], places, ticks,
+                    charge_first, gap)  # fmt: skip
+    ended = so_far if so_far == "interrupted" else "time limit"
+    try:
+        if so_far != "interrupted":
+            search.run(clock)
+            ended = "gave up"
+    except OutOfTime:
+        pass
+    except KeyboardInterrupt:
+        ended = "interrupted"
+    tour = search.tour
+    if tour.bound >= search.incumbent.goal - 1e-9:
+        ended = "proven"
+    named, hops = [], []
+    for slot, relays in zip(tour.slots, tour.way.hops):
+        named.append(tuple(int(order[t]) for t in slot))
+        hops.append(relays)
+    return tour._replace(slots=named, way=tour.way._replace(hops=hops)), ended
+
+
+def _renumbered(problem: Problem, order: np.ndarray, place: np.ndarray) -> Problem:
+    return problem._replace(
+        places=problem.places[order],
+        robots=problem.robots[order],
+        ticks=problem.ticks[order],
+        demands=np.ascontiguousarray(problem.demands[:, order]),
+        before=place[problem.before].reshape(-1, 2),
+    )
+
+
+class Search:
+    """The state of a search for the shortest tour; can be stopped at any moment."""
+
+    def __init__(
+        self, problem: Problem, slots: list[tuple[int, ...]], places: Places, ticks: int, charge_first: bool, gap: float
+    ):
+        """Begin with a schedule, deployed as the slot oracle says."""
+        self.problem, self.ticks, self.charge_first = problem, ticks, charge_first
+        self.incumbent = Incumbent(slots, _as_deployed(problem, slots, charge_first), gap)
+        self.bound, self.proof = 0.0, "none"
+
+    @property
+    def tour(self) -> Tour:
+        """The best so far."""
+        return Tour(self.incumbent.slots, self.incumbent.way, min(self.bound, self.incumbent.way.cost), self.proof)
+
+    def run(self, clock: Clock) -> None:
+        """Shorten the tour and raise the bound until they meet, or raise OutOfTime."""
+        problem, incumbent = self.problem, self.incumbent
+        ways = Itineraries(problem, self.charge_first, clock)
+        incumbent.offer(incumbent.slots, ways.cheapest(incumbent.slots))
+        clock.check()
+        self._anneal(ways, clock)
+        self._raise(gathering_bound(problem, self.charge_first, incumbent.goal), "gathering", clock)
+        if problem.size > MOST_TASKS or self.bound >= incumbent.goal:
+            return
+        related = closure(problem)
+        both = related | related.T
+        forbidden = np.array([sum(1 << int(t) for t in np.flatnonzero(row)) for row in both], np.int64)
+        lattice = lattice_of(problem, FINE, self.charge_first, optimistic=True)
+        family = Family(problem, lattice.hops, forbidden)
+        clock.check()
+        if not family.complete:
+            return
+        branching = Branching(problem, family, Insertions(problem, lattice), incumbent, self.ticks, self.charge_first,
+                              related, ways, clock)  # fmt: skip
+        branching.bound = self.bound
+        try:
+            branching.run()
+        finally:
+            if branching.bound > self.bound:
+                self.bound, self.proof = branching.bound, "tours"
+
+    def _raise(self, bound: float, proof: str, clock: Clock) -> None:
+        if bound > self.bound:
+            self.bound, self.proof = bound, proof
+        clock.tell(proof, self.bound, self.incumbent.way.cost)
+        clock.check()
+
+    def _anneal(self, ways: Itineraries, clock: Clock) -> None:
+        problem = self.problem
+        if problem.size > MOST_ANNEALED or len(problem.before):
+            return
+        lattice = lattice_of(problem, COARSE, self.charge_first, optimistic=False)
+        for number in range(ROUNDS):
+            slots = anneal(problem, lattice, self.incumbent.slots, self.ticks, TRIES, number)
+            if slots != self.incumbent.slots:
+                self.incumbent.offer(slots, ways.cheapest(slots, self.incumbent.way.cost))
+            clock.tell("annealing", self.bound, self.incumbent.way.cost)
+            clock.check()
+
+
+def _as_deployed(problem: Problem, slots: list[tuple[int, ...]], charge_first: bool) -> Itinerary:
+    places = Places(problem)
+    found = [places.deploy(np.array(slot)) for slot in slots]
+    points = np.array([[p.x, p.y] for p in found if p is not None])
+    stops = np.vstack([problem.start, points]) if charge_first else points
+    trip = float(np.abs(np.diff(stops, axis=0)).sum())
+    hops = [p.hops for p in found if p is not None]
+    return Itinerary(problem.swarm * trip + problem.spacing * float(sum(h.sum() for h in hops)), points, hops)

@@ -1,0 +1,158 @@
+"""What the options beyond the paper bring (TP-O3 to TP-O5): rows and, for reaction and spread, event logs."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from formicarium.statistics.means import Mean, contrast, mean_of, welch
+from formicarium.studies.chart import Chart, Panel, Trace
+from formicarium.studies.foraging import SWITCH, Row, column, consistent, picked
+from formicarium.systems.partitioning.measures import EventKind
+from formicarium.systems.partitioning.memory import Label
+
+CYCLE = 0.1  # s
+WINDOW = 600.0  # s, of the share of the cache after a change
+SETTLED = 10000.0  # s before and after the change, by which levels are read off
+STEADY = 3  # windows in a row that must be past the middle
+TIMES = (0.0, 25.0, 50.0, 100.0, 200.0)  # s, at which S fixed and S after one's stays are compared
+PERIODS = (0.1, 10.0)  # s, between two draws of P_g
+VARIANTS = {
+    "as in the paper": {"strategy__social_weight": 0.0, "strategy__exploration_age": 0.0},
+    "talking": {"strategy__social_weight": 0.5, "strategy__exploration_age": 0.0},
+    "aged exploration": {"strategy__social_weight": 0.0, "strategy__exploration_age": 3600.0},
+}
+TOLD = ("subject", "value", "detail")  # fields of an ESTIMATES event, one a time
+HEADS = (
+    "draw of P_g",
+    "",
+    "runs",
+    "objects per robot",
+    "reaction (median)",
+    "none",
+    "cache at the end",
+    "disagreement",
+)
+Log = Callable[[Row], np.ndarray]  # row -> its EVENTs
+
+
+def cache_share(events: np.ndarray, window: float = WINDOW) -> np.ndarray:
+    """Return the share of actions that used the cache, window by window; actions as in TP-84."""
+    used = np.isin(events["kind"], (EventKind.DROPPED, EventKind.PICKED))
+    decided = np.isin(events["kind"], (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN))
+    other = (events["kind"] == EventKind.GAVE_UP) | (decided & (events["subject"] == Label.CORRIDOR))
+    place = np.floor(events["cycle"] * CYCLE / window).astype(int)
+    count = int(place.max()) + 1
+    first, second = (np.bincount(place[chosen], minlength=count) for chosen in (used, other))
+    return first / np.maximum(1, first + second)
+
+
+def reaction_time(events: np.ndarray) -> float:
+    """Return the s after the change at which the cache's share has got half way to its last level and stays there.
+
+    Infinite if it does not rise.
+    """
+    share = cache_share(events)
+    change, settled = int(SWITCH / WINDOW), int(SETTLED / WINDOW)
+    before, after = share[change - settled : change].mean(), share[-settled:].mean()
+    if after <= before:
+        return float("inf")
+    past = share[change:] > 0.5 * (before + after)
+    for k in range(len(past) - STEADY + 1):
+        if past[k : k + STEADY].all():
+            return (k + 1) * WINDOW
+    return float("inf")
+
+
+def _last_level(events: np.ndarray) -> float:
+    return float(cache_share(events)[-int(SETTLED / WINDOW) :].mean())
+
+
+def spread(events: np.ndarray) -> float:
+    """Return how far robots disagree: the spread of their times over their mean, averaged over times and the run.
+
+    Looked at every window from the settling time on, with each robot's times as of its last decision.
+    """
+    told = events[events["kind"] == EventKind.ESTIMATES]
+    robots, found = np.unique(told["robot"]), []
+    for moment in np.arange(SETTLED, told["cycle"].max() * CYCLE, WINDOW):
+        known = told[told["cycle"] * CYCLE <= moment]
+        last = [known[known["robot"] == robot][-1] for robot in robots if (known["robot"] == robot).any()]
+        values = np.array([[one[name] for name in TOLD] for one in last], float)
+        found.append(float((values.std(axis=0, ddof=1) / values.mean(axis=0)).mean()))
+    return float(np.mean(found))
+
+
+def changes(rows: Sequence[Row], period: float, variant: str) -> list[Row]:
+    """Return the runs in which the interfacing time falls from 200 s to 0."""
+    return picked(rows, cache__switch_time=SWITCH, strategy__giveup_draw_period=period, **VARIANTS[variant])
+
+
+def steady(rows: Sequence[Row], time: float, most: float) -> list[Row]:
+    """Return the runs without a change at an interfacing time, with S fixed (0) or after one's own stays."""
+    return picked(rows, cache__switch_time=-1.0, interfacing_time_s=time, strategy__steepness_most=most)
+
+
+def table_of_changes(rows: Sequence[Row], log: Log) -> list[dict[str, Any]]:
+    """Return a row for each reading of giving up and each variant: objects, reaction time, disagreement."""
+    table: list[dict[str, Any]] = []
+    for period in PERIODS:
+        for variant in VARIANTS:
+            cell = consistent(changes(rows, period, variant))
+            if not cell:
+                continue
+            logs = [log(row) for row in cell]
+            times, spreads = [reaction_time(events) for events in logs], [spread(events) for events in logs]
+            objects, disagreement = mean_of(column(cell, "objects_per_robot")), mean_of(spreads)
+            table.append(
+                {"draw_period_s": period, "variant": variant, "runs": len(cell)}
+                | {"objects_per_robot": objects.value, "low": objects.low, "high": objects.high}
+                | {"reaction_median_s": float(np.median(times)), "never_reacted": int(np.isinf(times).sum())}
+                | {"disagreement": disagreement.value, "disagreement_low": disagreement.low}
+                | {"disagreement_high": disagreement.high}
+                | {"share_after": float(np.mean([_last_level(events) for events in logs]))}
+            )
+    return table
+
+
+def gains(rows: Sequence[Row]) -> list[tuple[float, Mean, float]]:
+    """Return for each interfacing time what S after one's stays brings in objects per robot, and Welch's p."""
+    found = []
+    for time in TIMES:
+        fixed, adapted = (column(consistent(steady(rows, time, most)), "objects_per_robot") for most in (0.0, 10.0))
+        if fixed and adapted:
+            found.append((time, contrast([adapted, fixed], [1.0, -1.0]), welch(adapted, fixed)))
+    return found
+
+
+def figure_options(rows: Sequence[Row]) -> Chart:
+    """Objects per robot with S fixed and after one's own stays."""
+    traces = []
+    for label, most in (("S = 5", 0.0), ("S after one's own stays", 10.0)):
+        cells = [(time, column(consistent(steady(rows, time, most)), "objects_per_robot")) for time in TIMES]
+        there = [(time, mean_of(values)) for time, values in cells if values]
+        traces.append(Trace(label, [time for time, _ in there], [mean for _, mean in there]))
+    kept = consistent(rows)
+    note = f"{len(kept)} runs; {len(rows) - len(kept)} with phantom or lost objects left out; bars: 95 % intervals"
+    panel = Panel("", "interfacing time Π (s)", "objects per robot", traces)
+    return Chart("figure-options", "Adaptive steepness (TP-O4)", note, [panel])
+
+
+def section(rows: Sequence[Row], log: Log) -> list[str]:
+    """Return what the options bring as lines of Markdown."""
+    lines = ["# Options beyond the paper", "", f"{len(rows)} runs. Intervals: 95 %, over runs.", ""]
+    lines += ["## S after one's own stays in cache booths (TP-O4), against S = 5", ""]
+    lines += ["| Π (s) | objects per robot more | p (Welch) |", "|---|---|---|"]
+    for time, gain, p_value in gains(rows):
+        lines.append(f"| {time:g} | {gain.value:+.1f} ({gain.low:+.1f} to {gain.high:+.1f}) | {p_value:.2g} |")
+    lines += ["", "## Talking (TP-O3) and aged exploration (TP-O5), Π from 200 to 0 s at half time", ""]
+    lines += [f"| {' | '.join(HEADS)} |", "|---" * len(HEADS) + "|"]
+    for row in table_of_changes(rows, log):
+        objects = f"{row['objects_per_robot']:.0f} ({row['low']:.0f} to {row['high']:.0f})"
+        apart = f"{row['disagreement']:.2f} ({row['disagreement_low']:.2f} to {row['disagreement_high']:.2f})"
+        lines.append(
+            f"| {row['draw_period_s']:g} s | {row['variant']} | {row['runs']} | {objects} "
+            f"| {row['reaction_median_s']:.0f} s | {row['never_reacted']} "
+            f"| {100 * row['share_after']:.0f} % | {apart} |"
+        )
+    return lines

@@ -1,0 +1,89 @@
+"""Why a run of a reader's swarm failed: file, line, robot and cycle, found by going there in plain Python.
+
+A trial is its parameters and its seed, so it can be led to the last cycle that was well, compiled, and from there on
+interpreted: then Python itself says which line fails, or never ends.
+"""
+
+import json
+import os
+import pickle
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from formicarium.sources import INSTALLED, PACKAGE
+from formicarium.systems.registry import resolve
+
+INTERPRETED_CYCLES = 220  # enough for two looks
+LONGEST = 120.0  # s for all of them
+FILE = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+)| at (?P<other>\S+\.py) \((?P<number>\d+)\)')
+ADVICE = (
+    "Way out: functions under @compiled may use numbers, records, arrays, math and other compiled functions; no "
+    "dictionaries, texts, classes or new arrays. The code itself runs as plain Python with FORMICARIUM_INTERPRETED=1."
+)
+
+
+def explain(place: str, parameters: str, seed: int, cycle: int, what: str) -> str:
+    """Return in words what has gone wrong.
+
+    Args:
+        place: the system as "module:object".
+        parameters: of the trial, as JSON.
+        seed: of the trial.
+        cycle: the last that is known to be well.
+        what: how it failed: "hangs: ...", "died", or the message of an exception.
+    """
+    system = resolve(place)
+    head = f"{system.name}, seed {seed}"
+    state = system.begin(system.parameters.model_validate_json(parameters), seed)  # type: ignore[misc]
+    reached = 0
+    try:
+        if cycle:
+            system.advance(state, cycle)  # type: ignore[misc]
+        reached = cycle
+    except Exception:  # it cannot be compiled
+        state = system.begin(system.parameters.model_validate_json(parameters), seed)  # type: ignore[misc]
+    found = interpreted(place, state)
+    if found:
+        return f"{head}, {found}"
+    if "Failed in nopython mode" in what or "numba" in what or "TypingError" in what:
+        return f"{head}: the compiler does not understand{lines_of(what)}\n{ADVICE}"
+    return f"{head}: {what} after cycle {reached}; plain Python goes on from there without complaint.\n{ADVICE}"
+
+
+def lines_of(message: str) -> str:
+    """Return the lines of a reader's files that a message of the compiler names, and what it says."""
+    named = [(m["file"] or m["other"], m["line"] or m["number"]) for m in FILE.finditer(message)]
+    own = [(Path(file).resolve(), line) for file, line in named[::-1] if is_own(file)]  # the innermost first
+    places = "".join(f"\n  {file}, line {line}" for file, line in dict.fromkeys(own))
+    said = [
+        line.strip() for line in message.splitlines() if line.strip() and not line.lstrip().startswith(("File", "-"))
+    ]
+    telling = [line for line in said if not line.startswith(("Failed in", "During:", "[1", "[2", "[3", "This error"))]
+    return f"{places}\n  {' '.join(telling[:3])[:500]}"
+
+
+def is_own(file: str) -> bool:
+    """Tell whether a file is a reader's."""
+    path = Path(file)
+    return path.suffix == ".py" and not path.is_relative_to(PACKAGE) and not INSTALLED & set(path.parts)
+
+
+def interpreted(place: str, state: Any) -> str:
+    """Go on from a state in plain Python, in a process of its own; return what fails, empty if nothing does."""
+    program = (
+        "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from formicarium.systems.stepping import main; main()"
+    )
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", program, json.dumps(sys.path), place, str(INTERPRETED_CYCLES)],
+            input=pickle.dumps(state), env=os.environ | {"FORMICARIUM_INTERPRETED": "1"}, timeout=LONGEST,
+            capture_output=True, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return ""
+    if done.returncode:
+        return f"and plain Python fails before it comes there: {done.stderr.decode().strip().splitlines()[-1:]}"
+    return done.stdout.decode().strip()

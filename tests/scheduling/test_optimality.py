@@ -1,0 +1,84 @@
+"""The exact method finds what looking at every schedule finds, and the checker accepts what it finds."""
+
+import pytest
+
+from scheduling.small import small_instance
+
+pytest.importorskip("highspy")
+
+from formicarium.scheduling.checker import check
+from formicarium.scheduling.clock import Clock
+from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
+from formicarium.scheduling.model import solve_model
+from formicarium.scheduling.reach import Reach
+from formicarium.scheduling.schedule import travel_cost
+from formicarium.scheduling.solver import solve
+
+
+def same_time(seed, reach, most):
+    instance = small_instance(seed, most)
+    answer = solve(instance, "time", reach.name.lower())
+    assert answer.proven
+    assert answer.value == pytest.approx(least_time_of_all(instance, reach))
+    assert not check(instance, answer.schedule, reach.name.lower()).faults
+    return instance, answer
+
+
+def same_travel(seed, reach, most):
+    instance = small_instance(seed, most)
+    charged = seed % 2 == 0
+    answer = solve(instance, "travel", reach.name.lower(), charge_first=charged)
+    assert answer.proven
+    time = answer.time_limit
+    assert answer.value == pytest.approx(least_travel_of_all(instance, reach, time, charged), rel=1.5e-4, abs=1e-5)
+    verdict = check(instance, answer.schedule, reach.name.lower(), time)
+    assert not verdict.faults
+    first = verdict.first_trip if charged else 0.0
+    own = instance.robots * (verdict.trip + first) + verdict.relays * instance.spacing / instance.paths
+    assert answer.value == pytest.approx(own)
+    if reach is Reach.INSCRIBED:
+        assert verdict.over_radio == 0
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("reach", [Reach.PRINTED, Reach.INSCRIBED])
+def test_least_time_is_that_of_all_schedules(seed, reach):
+    same_time(seed, reach, 5)
+
+
+@pytest.mark.parametrize("seed", range(100, 108))
+@pytest.mark.parametrize("reach", [Reach.PRINTED, Reach.INSCRIBED])
+def test_least_travel_is_that_of_all_schedules(seed, reach):
+    same_travel(seed, reach, 4)
+
+
+@pytest.mark.parametrize("seed", range(200, 204))
+def test_the_papers_model_agrees(seed):
+    instance = small_instance(seed, 4)
+    answer = solve(instance, "time", "printed")
+    model = solve_model(instance, Reach.PRINTED, Clock(30))
+    assert model.value == pytest.approx(answer.value)
+    shorter = solve(instance, "travel", "printed", charge_first=False)
+    model = solve_model(instance, Reach.PRINTED, Clock(60), time=answer.value)
+    assert model.value == pytest.approx(shorter.value, rel=3e-4, abs=1e-4)
+    assert not check(instance, model.schedule, "printed", answer.value).faults
+    assert travel_cost(instance, model.schedule, False) == pytest.approx(model.value, rel=1e-5, abs=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(300, 310))
+def test_in_the_true_circle_no_arm_is_longer_than_the_radio_reaches(seed):
+    instance = small_instance(seed, 5)
+    times = [solve(instance, "time", reach).value for reach in ("inscribed", "euclid", "printed")]
+    assert times[0] >= times[1] >= times[2]  # each octagon holds the other or lies in it
+    answer = solve(instance, "travel", "euclid")
+    verdict = check(instance, answer.schedule, "euclid", answer.time_limit)
+    assert answer.proven and not verdict.faults and verdict.over_radio == 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(10))
+def test_five_hundred_instances(part):
+    for seed in range(1000 + 50 * part, 1050 + 50 * part):
+        reach = (Reach.PRINTED, Reach.INSCRIBED)[seed % 2]
+        same_time(seed, reach, 6)
+        same_travel(seed, reach, 4)
