@@ -111,7 +111,7 @@ SAID = [
     ("epoch", "i8"),  # counts the phases that the master has called out; 0: none heard yet
     ("mode", "i8"),  # the phase
     ("spacing", "f8"),  # m, delta of the phase
-    ("round", "i8"),  # counts the master's corrections of the arms
+    ("correction", "i8"),  # counts the master's corrections of the arms
     ("arm", "i8"),  # the speaker's own, 1..ARMS; 0: none
     ("aligned", "i8"),
     ("linked", "i8"),  # 1 if the speaker has a way to the master; without it gradient and hops say nothing

@@ -115,3 +115,11 @@ def test_losses_are_drawn_for_each_direction_by_itself():
     asymmetric = np.mean([heard[:, i, j] != heard[:, j, i] for i, j in pairs])
     assert heard[:, *np.triu_indices(6, 1)].mean() == pytest.approx(0.7, abs=0.02)
     assert asymmetric == pytest.approx(0.42, abs=0.02)
+
+
+def test_no_field_has_the_name_of_a_method_of_records():
+    """Interpreted, ``record.round`` is NumPy's method and not the field."""
+    state = swarm(line(3))
+    for name, part in state._asdict().items():
+        for field in getattr(part, "dtype", np.dtype("i8")).names or ():
+            assert not hasattr(np.record, field), (name, field)

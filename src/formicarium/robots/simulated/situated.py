@@ -62,7 +62,7 @@ def hear(packet, message, identity):
     packet.epoch = message.epoch
     packet.mode = message.mode
     packet.spacing = message.spacing
-    packet.round = message.round
+    packet.correction = message.correction
     packet.arm = message.arm
     packet.aligned = message.aligned
     packet.linked = message.linked

@@ -31,9 +31,9 @@ def draw_arm(memory):
 @compiled
 def choose_arm(reading, memory, table):
     """Draw an arm when none is had, and perhaps another one when the master corrects them."""
-    if memory.arm_count == 0 or (memory.arm != 0 and memory.round == memory.drawn):
+    if memory.arm_count == 0 or (memory.arm != 0 and memory.correction == memory.drawn):
         return
-    memory.drawn = memory.round
+    memory.drawn = memory.correction
     if table.arm_choice == BLOCKS:
         memory.arm = 1 + ((reading.identity - 1) // BLOCK) % memory.arm_count
     elif memory.arm == 0 or chance(memory) < memory.arms[memory.arm - 1].leave:

@@ -45,8 +45,7 @@ def decide(reading, memory, command, table, chart, footbot):
         memory.stage = Stage.HOLDING
         clear(command)
     elif memory.mode == Mode.GATHER:
-        memory.stage = Stage.GATHERING
-        press(reading, memory, command, table, memory.spacing, 0, footbot.speed)
+        gather(reading, memory, command, table, footbot)
     else:
         memory.stage = Stage.WAITING
         clear(command)
@@ -77,6 +76,16 @@ def keep_up(reading, memory, command, table, footbot):
     if memory.linked == 1:
         memory.stage = Stage.FLOCKING
         flock(reading, memory, command, table, footbot.speed)
+    else:
+        be_lost(reading, memory, command, table, footbot)
+
+
+@compiled
+def gather(reading, memory, command, table, footbot):
+    """Draw near to all others, unless there is no way to the master any more."""
+    if memory.linked == 1:
+        memory.stage = Stage.GATHERING
+        press(reading, memory, command, table, memory.spacing, 0, footbot.speed)
     else:
         be_lost(reading, memory, command, table, footbot)
 

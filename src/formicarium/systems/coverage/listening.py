@@ -44,9 +44,9 @@ def hear_phase(reading, memory):
             memory.since = reading.cycle
             memory.stage = Stage.WAITING
             memory.aligned = 0
-        if packet.arm_count > 0 and (packet.round > memory.round or memory.arm_count == 0):
+        if packet.arm_count > 0 and (packet.correction > memory.correction or memory.arm_count == 0):
             memory.arm_count = packet.arm_count
-            memory.round = packet.round
+            memory.correction = packet.correction
             for arm in range(packet.arm_count):
                 memory.arms[arm].weight = packet.arms[arm].weight
                 memory.arms[arm].leave = packet.arms[arm].leave

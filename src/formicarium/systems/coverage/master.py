@@ -55,14 +55,14 @@ def lead(reading, memory, command, table, chart, footbot):
 def point_out(memory, chart):
     """Work out where the tasks are by one's own odometry."""
     if memory.arm_count == 0:
-        memory.round += 1
+        memory.correction += 1
     memory.arm_count = chart.task_count
     for k in range(chart.task_count):
         ahead = chart.task_ahead[k] - memory.way_ahead
         aside = chart.task_aside[k] - memory.way_aside
         memory.arms[k].known = 1
         memory.arms[k].direction = wrapped(math.atan2(aside, ahead) - memory.facing)
-        if memory.round == 1:
+        if memory.correction == 1:
             memory.arms[k].weight = chart.wanted[k]
 
 
@@ -127,7 +127,7 @@ def correct_arms(memory, table, chart, cycle):
     if not wrong:
         return
     memory.corrected = cycle
-    memory.round += 1
+    memory.correction += 1
     for k in range(memory.arm_count):
         arm = memory.arms[k]
         surplus = arm.count - quota(chart, k)

@@ -55,7 +55,7 @@ MEMORY = np.dtype(
         ("mode", "i8"),
         ("spacing", "f8"),  # m
         ("since", "i8"),  # cycle at which it was heard
-        ("round", "i8"),  # newest word on the arms
+        ("correction", "i8"),  # newest word on the arms
         ("drawn", "i8"),  # the round in which the robot last thought about its arm
         ("arm_count", "i8"),
         ("arms", ARM, ARMS),

@@ -23,7 +23,7 @@ def speak(reading, memory, command, longest):
     message.epoch = memory.epoch
     message.mode = memory.mode
     message.spacing = memory.spacing
-    message.round = memory.round
+    message.correction = memory.correction
     message.arm = memory.arm
     message.aligned = memory.aligned
     message.linked = memory.linked
