@@ -111,9 +111,10 @@ class Small:
             programme: cost (n,), lower and upper bound (n,) of the variables; starts (m + 1,) of the rows in the
                 next two; variables and coefficients of the rows; limits (m,) of the rows.
             whole: numbers of the variables that must be whole; None for none.
-            clock: if time runs out the answer is infinite.
+            clock: looked at before; a small programme runs to its end, so that no answer is a matter of time.
             cutoff: costs that are not below are of no interest.
         """
+        clock.check()
         highs, model = self._highs, highspy.HighsLp()
         cost, low, high, starts, index, value, limits = programme
         model.num_col_, model.num_row_ = len(cost), len(limits)
@@ -129,7 +130,6 @@ class Small:
         highs.setOptionValue("presolve", "choose" if whole is not None else "off")
         highs.setOptionValue("objective_bound", cutoff)
         highs.setOptionValue("mip_rel_gap", 1e-7)
-        highs.setOptionValue("time_limit", float(min(clock.left + 1.0, 1e8)))
         highs.passModel(model)
         with _interruptible():
             highs.run()
@@ -137,9 +137,7 @@ class Small:
         if status in (highspy.HighsModelStatus.kObjectiveBound, highspy.HighsModelStatus.kInfeasible):
             return INFINITY, None
         if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
-            if status != highspy.HighsModelStatus.kTimeLimit:
-                raise ArithmeticError(f"HiGHS: {highs.modelStatusToString(status)}")
-            return INFINITY, None
+            raise ArithmeticError(f"HiGHS: {highs.modelStatusToString(status)}")
         return info.objective_function_value, np.array(highs.getSolution().col_value)
 
 
