@@ -98,7 +98,8 @@ def test_with_three_areas_objects_pass_both_caches_and_nobody_crosses_one():
     side = state.world.bodies.x.copy()
     run(state, 9000)
     assert (state.pairs.state > 0).any() and (state.memories.measured_at[:, Estimate.MIDDLE] > 0).any()
-    left, _, right, _ = make_arena(parameters.arena).middle_area
+    inner_left, _, inner_right, _ = make_arena(parameters.arena).middle_area
+    left, right = inner_left - 0.12, inner_right + 0.12  # the middle of each cache: who is in a booth is on its side
     for before, after in zip(side, state.world.bodies.x, strict=True):
         assert (before < left) == (after < left) and (before > right) == (after > right)
 
