@@ -46,6 +46,26 @@ def test_a_branch_is_built_in_most_of_twenty_trials(name):
     assert sum(branch_is_built(ARENAS[name], seed) for seed in range(100, 120)) >= 12
 
 
+def test_where_the_first_task_is_never_right_no_chain_begins():
+    """T2: a guardian knows what feedback tells it and nothing else. The same trial with feedback builds its branch."""
+    built = []
+    for never in (True, False):
+        state = begin(mark_i3_parameters(), 0)
+        if never:
+            state.coordinator[0].always_negative = state.coordinator[0].order[0]
+        logs = []
+        for _ in range(8):
+            run(state, 1000)
+            logs.append(drain(state))
+        events = np.concatenate(logs)
+        done = events[events["kind"] == EventKind.EXECUTED]
+        if never:
+            assert len(done) >= 3 and not (done["value"] == 1).any()
+        roles = events[events["kind"] == EventKind.ROLE]["value"]
+        built.append(bool(np.isin(roles, (Role.TAIL, Role.LINK)).any()))
+    assert built == [False, True]
+
+
 def first_branch(seed: int) -> dict[int, tuple[float, float]] | None:
     """Return where the links of branch 1 stand when it is established, as its origin guardian's booth sees them."""
     state = begin(mark_i3_parameters(), seed)
