@@ -46,13 +46,19 @@ def no_dead_sensor(name: str) -> None:
         sensors = rest[-1] if len(rest) == path.count(".") else 1
         table = values.reshape(-1, sensors)
         dead += [f"{path}[{k}]" for k in range(sensors) if len(np.unique(table[:, k])) < 2]
-    dead = [path for path in dead if not silent_byte(path, readings)]
+    dead = [path for path in dead if not unused_word(path, readings)]
     require(not dead, f"always the same in 4000 cycles: {', '.join(dead)}")
 
 
-def silent_byte(path: str, readings: np.ndarray) -> bool:
-    """Tell whether a byte of the radio's payload is simply not used: 0 in all packets."""
-    return ".payload" in path and not readings["packets"]["payload"][..., int(path[:-1].rpartition("[")[2])].any()
+def unused_word(path: str, readings: np.ndarray) -> bool:
+    """Tell whether a word of the messages is simply not used: a whole number that is 0 in all packets."""
+    if not path.startswith(".packets."):
+        return False
+    name, _, place = path.removeprefix(".packets.").removesuffix("]").partition("[")
+    words = readings["packets"][name]
+    if words.ndim > readings["packets"].ndim:
+        words = words[..., int(place)]
+    return bool(np.issubdtype(words.dtype, np.integer)) and not words.any()
 
 
 def own_identity_and_clock(name: str) -> None:
