@@ -158,7 +158,7 @@ def test_quotas_are_met_by_correction():
 
 
 def test_phases_follow_each_other_and_everybody_hears_of_them():
-    state = swarm(setting=0, robots=10, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
+    state = swarm(setting=0, robots=14, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
     modes = []
     while not state.clock[0].finished and state.clock[0].cycle < 9000:
         advance(state, 1)
@@ -177,6 +177,6 @@ def test_a_message_has_at_most_five_hundred_bytes_and_everybody_gets_a_turn():
         for identity, command in zip(state.robots.identity, state.commands, strict=True):
             message = command.message
             assert message.bytes <= 500
-            told[int(identity)] |= set(message.entries.receiver[: message.entry_count].tolist())
+            told[int(identity)] |= set(message.entries["receiver"][: message.entry_count].tolist())
     assert state.survey[0].bytes_most > 250
     assert min(len(names) for names in told.values()) >= 5
