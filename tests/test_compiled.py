@@ -1,11 +1,13 @@
 """The porch: old machine code never runs for new sources, and everything can run without a compiler."""
 
 import os
+import shutil
 import subprocess
 import sys
 
 import pytest
 
+from formicarium import compiled
 from formicarium.angles import wrapped
 from formicarium.compiled import APART, DECIDING, cache_folder
 from formicarium.sources import PACKAGE, own_files
@@ -174,3 +176,53 @@ def test_a_readers_state_does_not_spoil_the_packages_machine_code_for_others(tmp
     )
     assert python(STRANGE_STATE, own, cache=tmp_path / "cache") == "0"
     assert python(OURS, cache=tmp_path / "cache") == "0"
+
+
+BESIDE = """
+import subprocess, sys, time
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+import caller
+from formicarium.angles import wrapped
+from formicarium.compiled import compiled_beside
+
+if sys.argv[3] == "no helper":
+    subprocess.Popen = None
+with compiled_beside(caller.call, [(wrapped, (1.0,))]):
+    patience = time.monotonic() + 60.0 * (sys.argv[3] == "helper")
+    while not (found := list(Path(sys.argv[2]).rglob("angles.wrapped*.nbi"))) and time.monotonic() < patience:
+        time.sleep(0.05)
+    print(len(found), caller.call(1.0))
+"""
+
+
+def test_a_cold_start_compiles_in_two_processes_and_a_warm_one_in_none(reader, tmp_path):
+    cache = tmp_path / "cache"
+    assert python(BESIDE, reader, cache, "helper", cache=cache) == "1 2.0"
+    assert python(BESIDE, reader, cache, "no helper", cache=cache) == "1 2.0"
+
+
+def test_a_helper_that_cannot_be_of_help_changes_nothing(reader, tmp_path):
+    cache = tmp_path / "cache"
+    program = BESIDE.replace("wrapped, (1.0,)", 'wrapped, ("a word",)')  # no machine code for words
+    assert python(program, reader, cache, "failing helper", cache=cache) == "0 2.0"
+
+
+def test_an_edit_of_one_system_outdates_its_own_runs_alone(tmp_path, monkeypatch):
+    package = tmp_path / "formicarium"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(compiled, "PACKAGE", package)
+    homes = [package / "systems" / name / "study.py" for name in ("sequencing", "partitioning", "coverage")]
+
+    def hashes():
+        return [compiled.system_hash.__wrapped__(home) for home in homes]
+
+    def edit(place):
+        place.write_text(place.read_text() + "\n# another thought\n")
+
+    first = hashes()
+    edit(package / "systems" / "partitioning" / "behaviour.py")
+    second = hashes()
+    assert [a == b for a, b in zip(first, second)] == [True, False, True]
+    edit(package / "physics" / "step.py")
+    assert not set(hashes()) & set(second)

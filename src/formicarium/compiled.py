@@ -11,13 +11,15 @@ that of the package's functions: nobody else has to be able to import them.
 """
 
 import functools
-import hashlib
 import io
 import os
 import pickle
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +48,23 @@ def _python_files(place: Path) -> list[Path]:
 
 @functools.cache
 def source_hash() -> str:
-    """Hash of every source of the package that decides results: 16 hexadecimal digits.
-
-    Part of a run's identity (law 8 of the house).
-    """
+    """Hash of every source of the package that decides results: 16 hexadecimal digits."""
     return _hash_of(*DECIDING)
+
+
+@functools.cache
+def system_hash(file: Path) -> str:
+    """Hash of every source that decides the results of one of the package's systems: 16 hexadecimal digits.
+
+    Part of a run's identity (law 8 of the house). No system imports from another (a contract of the house), so the
+    folders of the others are left out.
+
+    Args:
+        file: in which the system is put together.
+    """
+    systems = sorted((PACKAGE / "systems").iterdir())
+    others = [place for place in systems if place.is_dir() and not file.is_relative_to(place)]
+    return _hash_of(*DECIDING, without=others)
 
 
 @functools.cache
@@ -59,13 +73,9 @@ def room_hash(room: str) -> str:
     return _hash_of("compiled.py", "streams.py", room)
 
 
-def _hash_of(*names: str) -> str:
-    digest = hashlib.blake2b(digest_size=8)
-    for name in names:
-        for file in _python_files(PACKAGE / name):
-            digest.update(file.name.encode())
-            digest.update(file.read_bytes())
-    return digest.hexdigest()
+def _hash_of(*names: str, without: Sequence[Path] = ()) -> str:
+    files = [file for name in names for file in _python_files(PACKAGE / name)]
+    return hash_of(tuple(file for file in files if not any(file.is_relative_to(place) for place in without)))
 
 
 def cache_folder(*modules: tuple[str, str | None]) -> Path:
@@ -146,6 +156,11 @@ class SharedCache:
         """Keep the machine code for a signature."""
         self._part(frozenset(foreign_modules(signature))).save_overload(signature, data)
 
+    def is_empty(self) -> bool:
+        """Tell whether no machine code of the function is kept that knows the package's types alone."""
+        own = self._parts[frozenset()]
+        return not (Path(own.cache_path) / f"{own._impl.filename_base}.nbi").exists()
+
     def flush(self) -> None:
         """Forget what is kept."""
         for part in self._parts.values():
@@ -174,6 +189,10 @@ class Compiled:
         """Run the machine code from Python."""
         return self._outer(*arguments)
 
+    def is_new(self) -> bool:
+        """Tell whether calling the function from Python means that it has to be compiled."""
+        return isinstance(self._outer._cache, SharedCache) and self._outer._cache.is_empty()
+
     @functools.cached_property
     def _outer(self) -> Any:
         return _njit(self.inner.py_func, "outer")
@@ -191,6 +210,42 @@ def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
     if Path(function.__code__.co_filename).is_file():
         dispatcher._cache = SharedCache(function, kind)
     return dispatcher
+
+
+Call = tuple[Any, tuple[Any, ...]]  # a function of the package and the arguments of a call of it
+
+
+@contextmanager
+def compiled_beside(caller: Any, calls: Sequence[Call]) -> Iterator[None]:
+    """Let a process beside this one compile functions while this one compiles their caller, if its machine code is new.
+
+    A cold start takes two thirds of the time on two cores (measured in docs/why.md). Both processes write to the same
+    folder; what the helper is not done with when the caller comes to it, the caller compiles.
+
+    Args:
+        caller: compiled in the body of the ``with`` statement.
+        calls: what the helper compiles, in its order; arguments of the types that the caller hands over.
+    """
+    if INTERPRETED or parent_process() is not None or not isinstance(caller, Compiled) or not caller.is_new():
+        yield
+        return
+    work = [(function.__module__, function.__qualname__, tuple(map(numba.typeof, given))) for function, given in calls]
+    program = "import sys; from formicarium.compiled import compile_named; compile_named(sys.stdin.buffer.read())"
+    quiet = subprocess.DEVNULL
+    helper = subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=quiet, stderr=quiet)
+    try:
+        with suppress(OSError), helper.stdin as pipe:  # type: ignore[union-attr]
+            pipe.write(serialize.dumps(work))
+        yield
+    finally:
+        helper.kill()
+        helper.wait()
+
+
+def compile_named(message: bytes) -> None:
+    """Compile functions for the types in a pickle that ``compiled_beside`` wrote."""
+    for module, name, types in pickle.loads(message):
+        getattr(import_module(module), name).inner.compile(types)
 
 
 def compiled(function: Callable[..., Any]) -> Any:

@@ -5,7 +5,7 @@ import inspect
 import sys
 from pathlib import Path
 
-from formicarium.compiled import source_hash
+from formicarium.compiled import source_hash, system_hash
 from formicarium.sources import PACKAGE, hash_of, own_files
 from formicarium.systems.registry import System
 
@@ -13,7 +13,7 @@ from formicarium.systems.registry import System
 def sources_of(system: System) -> str:
     """Return the hash of all sources that decide the results of a system: 16 hexadecimal digits."""
     file, package = home_of(system)
-    return source_hash() if file.is_relative_to(PACKAGE) else _own_hash(file, package)
+    return system_hash(file) if file.is_relative_to(PACKAGE) else _own_hash(file, package)
 
 
 def home_of(system: System) -> tuple[Path, str | None]:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 
 class Comparison(NamedTuple):
@@ -28,7 +28,7 @@ def log_rank(
     set reached the target while runs of both were still going, nothing speaks for a difference.
     """
     with np.errstate(invalid="ignore", divide="ignore"):
-        result = stats.logrank(_censored(times, ends), _censored(other_times, other_ends))
+        result = scipy.stats.logrank(_censored(times, ends), _censored(other_times, other_ends))
     if not math.isfinite(result.statistic):
         return Comparison("log-rank", 0.0, 1.0)
     return Comparison("log-rank", float(result.statistic), float(result.pvalue))
@@ -36,11 +36,11 @@ def log_rank(
 
 def fisher(successes: int, runs: int, other_successes: int, other_runs: int) -> Comparison:
     """Compare two shares (Fisher's exact test). The statistic is the sample odds ratio."""
-    result = stats.fisher_exact([[successes, runs - successes], [other_successes, other_runs - other_successes]])
+    result = scipy.stats.fisher_exact([[successes, runs - successes], [other_successes, other_runs - other_successes]])
     return Comparison("Fisher exact", float(result.statistic), float(result.pvalue))
 
 
-def _censored(times: Sequence[float | None], ends: Sequence[float]) -> stats.CensoredData:
+def _censored(times: Sequence[float | None], ends: Sequence[float]) -> "scipy.stats.CensoredData":
     reached = np.array([time is not None and math.isfinite(time) for time in times])
     seconds = [time if there else end for time, end, there in zip(times, ends, reached)]
-    return stats.CensoredData.right_censored(seconds, ~reached)
+    return scipy.stats.CensoredData.right_censored(seconds, ~reached)

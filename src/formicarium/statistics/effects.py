@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import optimize, stats
+import scipy
 
 from formicarium.statistics.intervals import wilson
 
@@ -39,7 +39,7 @@ def odds_ratio(successes: int, runs: int, other_successes: int, other_runs: int)
     failures, other_failures = runs - successes, other_runs - other_successes
     if not (successes + other_successes) or not (failures + other_failures):
         return Effect(math.nan, 0.0, math.inf)  # all runs of both sets ended alike
-    found = stats.contingency.odds_ratio([[successes, failures], [other_successes, other_failures]])
+    found = scipy.stats.contingency.odds_ratio([[successes, failures], [other_successes, other_failures]])
     interval = found.confidence_interval(0.95)
     return Effect(float(found.statistic), float(interval.low), float(interval.high))
 
@@ -66,14 +66,16 @@ def hazard_ratio(times: Times, ends: Sequence[float], other_times: Times, other_
             total += own_deaths * logarithm - float(np.log(risk - shares * tied).sum())
         return -total
 
-    best = optimize.minimize_scalar(minus_likelihood, bounds=(-12.0, 12.0), method="bounded", options={"xatol": 1e-9})
-    limit = best.fun + stats.chi2.ppf(0.95, 1) / 2
+    best = scipy.optimize.minimize_scalar(
+        minus_likelihood, bounds=(-12.0, 12.0), method="bounded", options={"xatol": 1e-9}
+    )
+    limit = best.fun + scipy.stats.chi2.ppf(0.95, 1) / 2
 
     def beyond(logarithm: float) -> float:
         return minus_likelihood(logarithm) - limit
 
-    low = optimize.brentq(beyond, -12.0, best.x) if beyond(-12.0) > 0 else -math.inf
-    high = optimize.brentq(beyond, best.x, 12.0) if beyond(12.0) > 0 else math.inf
+    low = scipy.optimize.brentq(beyond, -12.0, best.x) if beyond(-12.0) > 0 else -math.inf
+    high = scipy.optimize.brentq(beyond, best.x, 12.0) if beyond(12.0) > 0 else math.inf
     return Effect(math.exp(best.x), math.exp(low), math.exp(high))
 
 

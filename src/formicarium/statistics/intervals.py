@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from scipy import stats
+import scipy
 
 
 class Share(NamedTuple):
@@ -25,5 +25,5 @@ def wilson(successes: int, runs: int, confidence: float = 0.95) -> Share:
     Raises:
         ValueError: if there are no runs, or more successes than runs.
     """
-    interval = stats.binomtest(successes, runs).proportion_ci(confidence, method="wilson")
+    interval = scipy.stats.binomtest(successes, runs).proportion_ci(confidence, method="wilson")
     return Share(successes, runs, float(interval.low), float(interval.high))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from scipy import stats
+import scipy
 
 
 class Line(NamedTuple):
@@ -26,5 +26,5 @@ def fit_line(x: Sequence[float], y: Sequence[float]) -> Line:
     """
     if len(x) < 3:
         raise ValueError(f"a line through {len(x)} points says nothing: need at least 3")
-    found = stats.linregress(x, y)
+    found = scipy.stats.linregress(x, y)
     return Line(float(found.slope), float(found.intercept), float(found.rvalue**2))

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 
 class Mean(NamedTuple):
@@ -30,7 +30,7 @@ def mean_of(values: Sequence[float] | np.ndarray, confidence: float = 0.95) -> M
     if len(found) == 1:
         return Mean(value, value, value, 1)
     error = float(found.std(ddof=1)) / math.sqrt(len(found))
-    half = float(stats.t.ppf(0.5 + 0.5 * confidence, len(found) - 1)) * error
+    half = float(scipy.stats.t.ppf(0.5 + 0.5 * confidence, len(found) - 1)) * error
     return Mean(value, value - half, value + half, len(found))
 
 
@@ -54,7 +54,7 @@ def contrast(cells: Sequence[Sequence[float]], weights: Sequence[float], confide
         return Mean(value, value, value, number)
     parts = factors**2 * np.where(known, spreads, np.nanmean(spreads)) / sizes
     freedom = parts.sum() ** 2 / (parts[known] ** 2 / (sizes[known] - 1)).sum()
-    half = float(stats.t.ppf(0.5 + 0.5 * confidence, freedom)) * math.sqrt(parts.sum())
+    half = float(scipy.stats.t.ppf(0.5 + 0.5 * confidence, freedom)) * math.sqrt(parts.sum())
     return Mean(value, value - half, value + half, number)
 
 
@@ -64,4 +64,4 @@ def welch(first: Sequence[float], second: Sequence[float]) -> float:
         return 1.0
     if np.ptp(first) == 0.0 and np.ptp(second) == 0.0:
         return 1.0 if first[0] == second[0] else 0.0
-    return float(stats.ttest_ind(first, second, equal_var=False).pvalue)
+    return float(scipy.stats.ttest_ind(first, second, equal_var=False).pvalue)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 
 class RunTimes(NamedTuple):
@@ -57,7 +57,7 @@ def run_times(times: Sequence[float | None], ends: Sequence[float], confidence: 
         raise ValueError(f"need one end for each of at least one run, got {len(times)} times, {len(ends)} ends")
     reached = np.array([time is not None and math.isfinite(time) for time in times])
     seconds = np.array([time if there else end for time, end, there in zip(times, ends, reached)], float)
-    estimate = stats.ecdf(stats.CensoredData.right_censored(seconds, ~reached)).cdf
+    estimate = scipy.stats.ecdf(scipy.stats.CensoredData.right_censored(seconds, ~reached)).cdf
     low, high = _band(estimate, confidence)
     return RunTimes(
         np.asarray(estimate.quantiles),

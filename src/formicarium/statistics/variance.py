@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 
 class Term(NamedTuple):
@@ -59,7 +59,9 @@ def analyse(values: Sequence[float] | np.ndarray, factors: Mapping[str, Sequence
         with_it, free_with, _ = _fit(response, [*others, columns[name]])
         degrees, squares = free_without - free_with, without - with_it
         ratio = squares / degrees / (left / freedom) if degrees and left > 0 else float("nan")
-        terms.append(Term(name, squares, degrees, ratio, float(stats.f.sf(ratio, degrees, freedom)), squares / total))
+        terms.append(
+            Term(name, squares, degrees, ratio, float(scipy.stats.f.sf(ratio, degrees, freedom)), squares / total)
+        )
     return Analysis(tuple(terms), left, freedom, residuals)
 
 

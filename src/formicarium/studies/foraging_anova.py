@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from formicarium.statistics.means import Mean, contrast
 from formicarium.statistics.variance import Analysis, analyse
@@ -65,12 +65,12 @@ def analyses(rows: Sequence[Row]) -> list[Study]:
 def _analysis(title: str, rows: Sequence[Row], names: Sequence[str]) -> Study:
     response = np.array(column(rows, RESPONSE))
     factors = {GRID[name][0]: [float(row[name]) for row in rows] for name in names}
-    analysis, ranked = analyse(response, factors), analyse(stats.rankdata(response), factors)
+    analysis, ranked = analyse(response, factors), analyse(scipy.stats.rankdata(response), factors)
     cells = cells_of_grid(rows)
     several = [cell for cell in cells.values() if len(cell) > 1]
-    spread_p = float(stats.levene(*several, center="median").pvalue) if len(several) > 1 else float("nan")
+    spread_p = float(scipy.stats.levene(*several, center="median").pvalue) if len(several) > 1 else float("nan")
     shape = analysis.residuals
-    skewness, excess = float(stats.skew(shape)), float(stats.kurtosis(shape))
+    skewness, excess = float(scipy.stats.skew(shape)), float(scipy.stats.kurtosis(shape))
     return Study(title, len(cells), len(rows), analysis, ranked, skewness, excess, spread_p)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from formicarium.statistics.means import welch
 from formicarium.studies import foraging_anova, foraging_sizes
@@ -155,7 +155,7 @@ def _ac_10(runs: Runs) -> tuple[str, bool | None]:
 
 def _ac_11(runs: Runs) -> tuple[str, bool | None]:
     shares = [100 * _mean(_cell(runs, "adaptive", t), "share_corridor") for t in TIMES]
-    rho = float(stats.spearmanr(TIMES, shares).statistic)
+    rho = float(scipy.stats.spearmanr(TIMES, shares).statistic)
     return f"corridor {_list(shares)} %, Spearman {rho:.2f}", rho >= 0.95
 
 

@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 from statistics import fmean
 
-from scipy import stats
+import scipy
 
 from formicarium.statistics.effects import median_ratio
 from formicarium.statistics.intervals import wilson
@@ -55,7 +55,7 @@ def shorter_branches(study: Study) -> Answer:
     two, three = (cell_of(study, name).links_of_branches for name in ("mark-ii4", "mark-ii3"))
     if not two or not three:
         raise Missing("no closed loop in one of the two")
-    p_value = float(stats.mannwhitneyu(two, three, alternative="two-sided").pvalue)
+    p_value = float(scipy.stats.mannwhitneyu(two, three, alternative="two-sided").pvalue)
     finding = f"{fmean(two):.1f} links in {len(two)} branches of II4, {fmean(three):.1f} in {len(three)} of II3"
     longer = fmean(two) > fmean(three) and p_value < ALPHA
     return f"{finding}, p {p_value:.2g}", WORSE if longer else COMPATIBLE
@@ -96,7 +96,7 @@ def uniform(study: Study, variant: str) -> Answer:
     if len(numbers) < 5 * leaves:
         raise Missing(f"{len(numbers)} elections in {NAMES[variant]}; the test needs {5 * leaves}")
     counted = Counter(numbers)
-    p_value = float(stats.chisquare([counted[k] for k in range(leaves)]).pvalue)
+    p_value = float(scipy.stats.chisquare([counted[k] for k in range(leaves)]).pvalue)
     finding = f"{len(numbers)} elections, mean {fmean(numbers):.2f} of expected {(leaves - 1) / 2}, p {p_value:.2g}"
     return finding, COMPATIBLE if p_value >= ALPHA else WORSE
 

@@ -1,10 +1,11 @@
 """Running a trial: the compiled loop in looks, between which Python empties the log and takes snapshots."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from formicarium.compiled import Call, compiled_beside
 from formicarium.trial.record import EVENT, Frames
 
 LOOK = 100  # cycles between two looks if nobody wants frames
@@ -63,6 +64,7 @@ def simulate(
     run: Callable[[Any, int], None],
     state: Any,
     *,
+    apart: Sequence[Call] = (),
     look: int = LOOK,
     every: int = 1,
     take: Callable[[Any], None] | None = None,
@@ -73,6 +75,7 @@ def simulate(
     Args:
         run: the system's compiled loop, ``run(state, cycles)``.
         state: the system's state, changed in place.
+        apart: some of what the loop calls, and with what: a cold start compiles it in a process of its own.
         look: cycles between two looks, at most; the event log has room for LOOK.
         every: cycles between two frames.
         take: called with the state at the start, every so many cycles and at the end.
@@ -81,6 +84,9 @@ def simulate(
     clock = state.clock[0]
     cycle_time = float(state.world.settings[0].cycle_time)
     logs = []
+    if apart:
+        with compiled_beside(run, apart):
+            run(state, 0)
     if take:
         take(state)
     while not clock.finished and clock.cycle < clock.last_cycle:

@@ -9,7 +9,7 @@ import numpy as np
 
 from formicarium.systems.registry import System, Targets
 from formicarium.systems.sequencing.arena import make_arena
-from formicarium.systems.sequencing.loop import run
+from formicarium.systems.sequencing.loop import apart, run
 from formicarium.systems.sequencing.measures import EventKind, outcome
 from formicarium.systems.sequencing.memory import Role
 from formicarium.systems.sequencing.onboard import ONBOARD
@@ -76,7 +76,7 @@ def run_trial(
     every = 1 if frames_every is None else max(1, round(frames_every / parameters.physics.cycle_time))
     album = Album(state, frame_roles, lambda state: state.memories["count"])
     take = None if frames_every is None else lambda state: album.take(state, state.booths.occupied == 0)
-    events = simulate(run, state, every=every, take=take, watch=watch)
+    events = simulate(run, state, apart=apart(state), every=every, take=take, watch=watch)
     taken: Frames | None = album.frames() if frames_every is not None else None
     return Trial(outcome_row(parameters, state, events), events, taken, scene_of(parameters, state))
 
