@@ -40,8 +40,8 @@ def sense_packets(world, i, robots, commands, queue, epuck, moment, reading):
     """Receive what the neighbours in range and in line of sight sent through the emitter that points here.
 
     At most ``radio_capacity`` packets come through in a cycle, drawn at random among the audible ones: every
-    sender gets a random place in the queue (scratch, one record a neighbour), which is served until it is
-    empty or the capacity is used up. Lost packets count against the capacity.
+    visible sender gets a random place in the queue (scratch, one record a neighbour), which is served until it
+    is empty or the capacity is used up. Lost packets count against the capacity.
     """
     body = world.bodies[i]
     reading.packet_count = 0
@@ -49,6 +49,8 @@ def sense_packets(world, i, robots, commands, queue, epuck, moment, reading):
     for n in range(world.neighbour_count[i]):
         neighbour = world.neighbours[i, n]
         if robots[neighbour.index].speaking == 0 or neighbour.distance >= epuck.radio_range:
+            continue
+        if not bodies_in_line_of_sight(world, i, n):
             continue
         draw = derived(moment, RADIO + robots[neighbour.index].key)
         place = waiting
@@ -67,7 +69,7 @@ def sense_packets(world, i, robots, commands, queue, epuck, moment, reading):
         j = neighbour.index
         line = math.atan2(neighbour.dy, neighbour.dx)
         emitter = emitter_towards(line + math.pi - world.bodies[j].heading)
-        if commands[j].enabled[emitter] == 0 or not bodies_in_line_of_sight(world, i, queue[place].neighbour):
+        if commands[j].enabled[emitter] == 0:
             continue
         used += 1
         noise = advanced(mixed(queue[place].draw))
