@@ -94,6 +94,33 @@ def test_a_click_opens_the_right_robot_with_its_messages_decoded(watched, opened
         assert "link_number" in text and "inhibition_heard" in text and "predecessor" in text
 
 
+def test_messages_fly_between_those_who_send_and_those_who_hear(watched, opened):
+    page = opened(watched)
+    settled(page)
+    sought(page, 900)
+
+    def seen_twice():
+        first = page.locator("#arena").screenshot()
+        page.wait_for_timeout(300)
+        return first, page.locator("#arena").screenshot()
+
+    page.wait_for_timeout(300)
+    first, second = seen_twice()
+    assert first == second  # the clock stands and so does the picture
+    page.keyboard.press("m")
+    until(page, "watching.now.frame.packets.length > 0")
+    first, second = seen_twice()
+    assert first != second  # messages are under way
+    system = resolve("mark-i3")
+    session = Session(system, system.configure(), SEED)
+    session.seek(900)
+    pairs = np.reshape(page.evaluate("[...watching.now.frame.packets]"), (-1, 2))
+    assert pairs.tolist() == session.packets().tolist() and len(pairs) > 5
+    x, y = page.evaluate("[[...watching.now.frame.x], [...watching.now.frame.y]]")
+    assert max(np.hypot(x[to] - x[sender], y[to] - y[sender]) for to, sender in pairs) < 0.81  # the radio's range
+    page.keyboard.press("m")
+
+
 def test_scrubbing_back_shows_the_state_that_was(watched, opened):
     page = opened(watched)
     ask(page, do="speed", times=0)
