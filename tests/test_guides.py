@@ -15,7 +15,7 @@ from formicarium.commands.main import exit_code
 ROOT = Path(__file__).parents[1]
 BLOCK = re.compile(r"^<!-- (?P<kind>[^>]+?) -->\n```\w*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 SHORT = ["--set", "time_cap=20"]  # simulated seconds
-CHANGING = {"plan", "run", "status", "collect", "clean", "adopt"}  # verbs that take --set
+CHANGING = {"plan", "run", "status", "collect", "clean", "pack", "adopt"}  # verbs that take --set
 
 
 def typed(line):

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -382,6 +383,27 @@ def test_runs_of_other_folders_are_taken_over(tmp_path, capsys):
     assert exit_code(["campaign", "adopt", "study.toml", str(tmp_path / "nowhere"), "--out", "new"]) == 2
     assert "holds no results" in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
+
+
+def test_a_campaign_goes_on_from_one_file_where_its_folder_is_not(tmp_path, capsys):
+    head = f'name = "walk"\nsystem = "{WALK}"\nfirst_seed = 1\nreplicates = 3\n'
+    (tmp_path / "study.toml").write_text(head + "[factors]\nrobots = [5, 9]")
+    assert campaign("run", "--runs", "3") == 0
+    campaign("collect", "--runs", "3")
+    undisturbed = (tmp_path / "here" / "runs.parquet").read_bytes()
+    assert exit_code(["campaign", "pack", "study.toml", "kept.parquet", "--out", "here", "--runs", "2"]) == 0
+    assert "4 runs packed" in capsys.readouterr().out
+    shutil.rmtree(tmp_path / "here")
+    assert exit_code(["campaign", "pack", "study.toml", "none.parquet", "--out", "here"]) == 2
+    assert exit_code(["campaign", "adopt", "study.toml", "kept.parquet", "--out", "here", "--runs", "3"]) == 0
+    assert "4 runs taken over" in capsys.readouterr().out
+    assert campaign("run", "--runs", "3") == 0
+    assert "2 now" in capsys.readouterr().out
+    campaign("collect", "--runs", "3")
+    assert (tmp_path / "here" / "runs.parquet").read_bytes() == undisturbed
+    (tmp_path / "kept.parquet").write_bytes((tmp_path / "kept.parquet").read_bytes()[:-9])
+    assert exit_code(["campaign", "adopt", "study.toml", "kept.parquet", "--out", "here"]) == 2
+    assert "kept.parquet is damaged" in capsys.readouterr().err
 
 
 def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):

@@ -1,4 +1,4 @@
-"""Take over runs that another folder holds: a set of one configuration, or another ledger, of any format known here.
+"""Take over runs from elsewhere: a set of one configuration, another ledger of any format known here, or a single part.
 
 This is how results move on when the format of a ledger changes, and how ledgers filled on several machines are
 put together.
@@ -16,7 +16,7 @@ from formicarium.campaigns import table
 from formicarium.campaigns.cells import Job
 from formicarium.campaigns.files import StoreError, read_json, replacing
 from formicarium.campaigns.ledger import MANIFEST, Ledger
-from formicarium.campaigns.parts import OWN
+from formicarium.campaigns.parts import OWN, DamagedPart, read_part
 from formicarium.campaigns.writer import Writer
 
 
@@ -29,11 +29,13 @@ class Adopted(NamedTuple):
 
 
 def rows_in(folder: Path) -> pa.Table:
-    """Return the rows of a folder, in the form of a ledger.
+    """Return the rows of a folder, or of a single part, in the form of a ledger.
 
     Raises:
         StoreError: if it holds no results, or a file in it is damaged.
     """
+    if folder.is_file():
+        return _rows_of_part(folder)
     return _rows_of_ledger(folder) if (folder / MANIFEST).exists() else _rows_of_set(folder)
 
 
@@ -66,6 +68,13 @@ def _rows_of_ledger(folder: Path) -> pa.Table:
     for name, reason in ledger.damaged.items():
         raise StoreError(f"{folder / 'parts' / name} is damaged ({reason}): move it away, then try again")
     return rows
+
+
+def _rows_of_part(path: Path) -> pa.Table:
+    try:
+        return read_part(path)
+    except DamagedPart as reason:
+        raise StoreError(f"{path} is damaged, or no file of runs that was packed ({reason})") from reason
 
 
 def _rows_of_set(folder: Path) -> pa.Table:

@@ -6,6 +6,7 @@ from formicarium.commands.campaign.adopt import adopt
 from formicarium.commands.campaign.clean import clean
 from formicarium.commands.campaign.collect import collect
 from formicarium.commands.campaign.compare import compare
+from formicarium.commands.campaign.pack import pack
 from formicarium.commands.campaign.plan import plan
 from formicarium.commands.campaign.run import run
 from formicarium.commands.campaign.status import status
@@ -20,5 +21,5 @@ HELP = """Studies: a table of factors, each cell repeated with seeds of its own,
 """
 
 campaign = App(name="campaign", help=HELP, help_format="plaintext", help_flags=["--help", "-h"])
-for verb in (plan, run, status, collect, compare, adopt, clean):
+for verb in (plan, run, status, collect, compare, pack, adopt, clean):
     campaign.command(verb)

@@ -1,13 +1,13 @@
-"""``formicarium campaign adopt DESIGN FOLDER``: take over runs that are somewhere else."""
+"""``formicarium campaign adopt DESIGN PLACE``: take over runs that are somewhere else."""
 
 from formicarium.commands.campaign.options import DesignFile, Out, Runs, Settings
 
 
-def adopt(design: DesignFile, folder: str, /, *, out: Out = None, runs: Runs = None, set_: Settings = None) -> None:
-    """Take over the runs of the design that another folder holds, so that they need not be run again.
+def adopt(design: DesignFile, place: str, /, *, out: Out = None, runs: Runs = None, set_: Settings = None) -> None:
+    """Take over runs of the design that are somewhere else, so that they need not be run again.
 
-    The folder may be one of "formicarium run", or another campaign, for
-    example from another machine. Nothing in it is changed.
+    The place may be a folder of "formicarium run", another campaign, for example
+    from another machine, or a file of "campaign pack". Nothing in it is changed.
 
     For example:
 
@@ -15,8 +15,8 @@ def adopt(design: DesignFile, folder: str, /, *, out: Out = None, runs: Runs = N
 
     Parameters
     ----------
-    folder
-        Where the runs are.
+    place
+        Folder or file where the runs are.
     """
     from pathlib import Path
 
@@ -28,8 +28,8 @@ def adopt(design: DesignFile, folder: str, /, *, out: Out = None, runs: Runs = N
     from formicarium.commands.campaign.study import Overrides, open_study
 
     study = open_study(design, out, Overrides(runs, tuple(set_ or ())))
-    rows = rows_in(Path(folder))  # before a folder of our own is made
+    rows = rows_in(Path(place))  # before a folder of our own is made
     with Writer(Ledger(study.folder), study.manifest, study.jobs) as writer:
-        found = take_over(writer, study.jobs, Path(folder), rows, study.design.keep)
+        found = take_over(writer, study.jobs, Path(place), rows, study.design.keep)
     text = f"{found.new} runs taken over, {found.known} were there, {found.other} are not in the design"
     wide_console().print(text, highlight=False)
