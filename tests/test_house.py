@@ -55,5 +55,5 @@ def test_the_automatic_check_runs_the_command_of_the_readme():
     printed = subprocess.run(
         [str(ROOT / ".ci" / "run"), "--print"], capture_output=True, text=True, check=True
     ).stdout.strip()
-    assert printed == 'python -m pip install -e ".[test]" && python -m pytest'
+    assert printed == 'python -m pip install -e ".[test]" && python -m pytest -n 2 --dist loadfile'
     assert printed in (ROOT / "README.md").read_text(encoding="utf-8")
