@@ -45,7 +45,7 @@ def test_a_run_that_fails_or_kills_its_dask_worker_is_a_failure_of_its_own(tmp_p
 
 
 def test_a_time_limit_holds_on_dask_too(tmp_path):
-    crew = DaskCrew(*open_cluster("local", 2, {}), time_limit=1.0)
+    crew = DaskCrew(*open_cluster("local", 2, {}), time_limit=4.0)
     report, _ = campaign(tmp_path, crew, jobs(10, trouble="hang"))
     assert (report.standing.done, report.standing.failed) == (8, 2)
     assert {str(run.ending) for run in report.failures} == {"late"}

@@ -17,7 +17,7 @@ places_ = st.lists(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(places_, st.floats(0.2, 2.0), places_)
 def test_the_neighbours_are_all_others_within_reach(spots, reach, later):
     world = make_world(discs(spots), reach=reach)
@@ -35,7 +35,7 @@ def test_the_neighbours_are_all_others_within_reach(spots, reach, later):
         assert sorted(listed.tolist()) == expected
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.permutations(range(12)), st.integers(0, 1000))
 def test_the_order_of_neighbours_does_not_depend_on_storage(order, seed):
     spots = np.random.default_rng(seed).uniform(-1, 1, (12, 2))
@@ -48,7 +48,7 @@ def test_the_order_of_neighbours_does_not_depend_on_storage(order, seed):
         assert mixed_keys.tolist() == straight.neighbours.index[i, :count].tolist()
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.floats(-2.5, 2.5), st.floats(-2.5, 2.5))
 def test_no_segment_within_reach_of_a_place_is_missing_from_its_cell(x, y):
     scenery = joined(polygon_walls(regular_polygon(6, 1.0, 0.2), gaps=[(0, 0.2, 0.3)]), box(0.2, 0.3, 1, 0.1, 0.2))

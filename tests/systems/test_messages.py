@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from formicarium.control.speech import in_sector
@@ -49,7 +49,6 @@ def test_the_message_has_exactly_the_fields_of_figure_s2():
     assert set(MESSAGE.names) == set(PLACES) | {"number", "report", "election", "source"}  # these are Mark II's
 
 
-@settings(deadline=None)
 @given(messages)
 def test_decoding_undoes_encoding(fields):
     payload = written(**fields)
@@ -57,7 +56,6 @@ def test_decoding_undoes_encoding(fields):
     assert {name: int(read(payload)[name]) for name in MESSAGE.names} == dict.fromkeys(MESSAGE.names, 0) | fields
 
 
-@settings(deadline=None)
 @given(st.binary(min_size=4, max_size=4))
 def test_any_four_bytes_can_be_read(data):
     again = written(**{name: int(read(list(data))[name]) for name in PLACES})
@@ -193,7 +191,6 @@ def test_nobody_repeats_an_echo_as_if_it_were_the_initiator():
     assert said_everywhere(robot) == bytes([0x10, 0, 0, 0b0_1_011_001])
 
 
-@settings(deadline=None)
 @given(messages)
 def test_a_notification_is_a_runners_message_without_request_and_with_a_count(fields):
     message = records(MESSAGE, 1)[0]

@@ -1,7 +1,7 @@
 """The four-byte message of Mark II, bit by bit against Fig. S16 (section 12.2), and who says what."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from formicarium.physics.records import records
@@ -65,7 +65,6 @@ def by_hand(places, **fields: int) -> bytes:
     return bytes(data)
 
 
-@settings(deadline=None)
 @given(st.one_of(fields_of(GUARDIAN, 1), fields_of(OTHERS, 0)))
 def test_decoding_undoes_encoding(fields):
     """A1, TS-135."""
@@ -79,7 +78,6 @@ def test_decoding_undoes_encoding(fields):
     assert not any(read[name] for name in set(MESSAGE.names) - set(fields) - {"branch"})
 
 
-@settings(deadline=None)
 @given(st.binary(min_size=4, max_size=4))
 def test_any_four_bytes_can_be_read_and_are_written_again(data):
     assert bytes(written_ii(**read_ii(list(data)))) == data

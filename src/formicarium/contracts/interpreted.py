@@ -62,12 +62,12 @@ def windows(name: str, count: int, length: int) -> list[Any]:
     return chosen
 
 
-def compiled_equals_interpreted(name: str, length: int = 40) -> None:
+def compiled_equals_interpreted(name: str, length: int = 24) -> None:
     """A window in the midst of a trial is the same compiled and interpreted, to the last bit."""
     start = windows(name, 1, 600)[0]
     start.robots[0].dies_at = start.clock[0].cycle + length // 2
     expected = compiled(name, start, length)
-    require(len(differences(start, expected)) > 3, "hardly anything changes within 40 cycles")
+    require(len(differences(start, expected)) > 3, "hardly anything changes within so few cycles")
     found = differences(interpreted(name, start, length), expected)
     require(
         not found, f"compiled and interpreted differ in {', '.join(found[:5])}; math.hypot? sums of arrays? integers?"

@@ -28,7 +28,7 @@ def sight(one, other):
 
 
 @given(POSES, POSES, st.floats(-3.1, 3.1))
-@settings(deadline=None, max_examples=500)
+@settings(max_examples=500)
 def test_a_direction_carried_over_is_the_same_direction_in_the_world(me, you, direction):
     """ST-36, on any pair of poses: h_i + T_i = h_j + T_j."""
     if math.hypot(me[0] - you[0], me[1] - you[1]) < 1e-3:
@@ -86,7 +86,6 @@ def test_turning_has_three_states_with_their_own_thresholds():
 
 
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.sampled_from(list(Turning)))
-@settings(deadline=None)
 def test_the_body_is_never_faster_than_the_limit(ahead, aside, state):
     command = records(COMMAND, 1)[0]
     command.ahead, command.aside = ahead, aside

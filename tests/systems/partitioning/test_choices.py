@@ -99,7 +99,7 @@ def test_with_a_threshold_a_third_leaves_at_once_and_half_by_the_sum_of_all_esti
     waits = []
     for _ in range(400):
         robot.memory.harvest = 60.0
-        waits.append(robot.wait(0.0, 2500.0, to_pick=False) or 2500.0)
+        waits.append(robot.wait(0.0, 400.0, to_pick=False) or 400.0)
     assert np.mean(np.array(waits) < 0.2) == pytest.approx(0.32, abs=0.06)
     assert np.median(waits) == pytest.approx(180.0, abs=30.0)
 
