@@ -16,7 +16,7 @@ from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
 from formicarium.scheduling.precedence import longest_chain
 from formicarium.scheduling.problem import Problem
 
-MOST_SETS = 150_000  # of an enumeration
+MOST_SETS = 1_000_000  # of an enumeration
 SHARE = 0.5  # of the time that is left, for all layers together
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 

@@ -15,7 +15,7 @@ from formicarium.scheduling.pricing import Prices
 from formicarium.scheduling.problem import Problem
 
 EPSILON = 1e-7
-FEW_BOXES, MANY_BOXES = 300, 20_000  # of one look for better sets; of the proof that there are none
+FEW_BOXES, MORE, MOST_BOXES = 300, 30, 8_100_000  # of a first look for better sets; next time; of a proof of none
 
 Set = tuple[int, ...]  # tasks, sorted
 
@@ -104,9 +104,9 @@ class Covering:
                         self.sets[whole_set] = None
                         put(whole_set, level)
                         found += 1
-                if found or exact or boxes == MANY_BOXES:
+                if found or exact or boxes >= MOST_BOXES or self.clock.seconds > until:
                     break
-                boxes = MANY_BOXES
+                boxes *= MORE
             if value / worst > least or exact:
                 least = max(least, value / worst)
                 used = {

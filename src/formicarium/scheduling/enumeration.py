@@ -27,7 +27,9 @@ def cell_demands(problem: Problem, cells: int) -> np.ndarray:
 def sets_below(
     problem: Problem, places: Places, gains: np.ndarray, worth: float, least: int, allowed: np.ndarray, most: int
 ) -> list[Set] | None:
-    """Return every set of allowed tasks that can be done at once and gains at least ``worth``.
+    """Return the sets of allowed tasks that can be done at once and gain at least ``worth``.
+
+    Without priorities a part of a set that is there need not be: the whole takes no longer and does more.
 
     Args:
         problem: that the tasks belong to.
@@ -55,8 +57,31 @@ def sets_below(
     )  # fmt: skip
     if number < 0:
         return None
-    chosen = [tuple(sorted(int(task) for task in tasks[flags])) for flags in found[:number]]
-    return [some for some in chosen if places.deploy(np.array(some)) is not None]
+    return _kept(found[:number], tasks, places, largest=not len(problem.before))
+
+
+def _kept(found: np.ndarray, tasks: np.ndarray, places: Places, largest: bool) -> list[Set]:
+    """Return those sets that have a point of deployment; if wanted only the ones that are no part of another.
+
+    Args:
+        found: (sets, T) bool, with every set that has enough gain also all larger ones that can be done.
+        tasks: (T,) their numbers.
+        places: slot oracle.
+        largest: leave parts of others out.
+    """
+    masks = [int.from_bytes(row.tobytes(), "little") for row in np.packbits(found, axis=1, bitorder="little")]
+    single = [1 << place for place in range(len(tasks))]
+    possible: set[int] = set()
+    kept: list[Set] = []
+    for number in np.argsort(-found.sum(axis=1), kind="stable"):
+        mask = masks[number]
+        part = any(mask | bit in possible for bit in single if not mask & bit)
+        if not part and places.deploy(np.sort(tasks[found[number]])) is None:
+            continue
+        possible.add(mask)
+        if not (part and largest):
+            kept.append(tuple(sorted(int(task) for task in tasks[found[number]])))
+    return kept
 
 
 @compiled

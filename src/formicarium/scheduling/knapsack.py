@@ -3,7 +3,7 @@
 from formicarium.compiled import compiled
 
 STEPS = 12  # of the multipliers, each time they are moved
-MOST_NODES = 3_000  # of the depth-first search; beyond, its bound is handed back instead of the optimum
+MOST_NODES = 300_000  # of the depth-first search; beyond, its bound is handed back instead of the optimum
 EPSILON = 1e-9
 
 
