@@ -18,7 +18,7 @@ name = "walk"
 system = "random_walk:RANDOM_WALK"
 first_seed = 1
 replicates = 4
-set = { pause = 0.2 }
+set = { pause = 2.0 }
 [factors]
 robots = [5, 9]
 """
