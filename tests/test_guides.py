@@ -96,6 +96,16 @@ def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
     assert (results / "connectivity-seven" / "lambda2.png").exists()
 
 
+def test_the_guide_to_learning_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("pettingzoo")
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "guides" / "learning.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+
+
 def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):
     pytest.importorskip("highspy")
     monkeypatch.chdir(tmp_path)

@@ -16,7 +16,7 @@ WALK = "random_walk:RANDOM_WALK"
 
 
 def test_every_name_is_there_has_words_and_types():
-    assert len(formicarium.__all__) == 12 and sorted(formicarium.__all__) == list(formicarium.__all__)
+    assert len(formicarium.__all__) == 13 and sorted(formicarium.__all__) == list(formicarium.__all__)
     for name in formicarium.__all__:
         found = getattr(formicarium, name)
         assert found.__doc__ and name in dir(formicarium)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from formicarium.commands.calls.drawing import plot_run_times as plot_run_times
     from formicarium.commands.calls.graphs import connectivity_of as connectivity_of
+    from formicarium.commands.calls.learning import parallel_env as parallel_env
     from formicarium.commands.calls.results import Results as Results
     from formicarium.commands.calls.results import load_results as load_results
     from formicarium.commands.calls.running import parameters as parameters
@@ -42,6 +43,7 @@ _PLACES = {
     "plot_run_times": "formicarium.commands.calls.drawing:plot_run_times",
     "schedule": "formicarium.commands.calls.schedules:schedule",
     "connectivity_of": "formicarium.commands.calls.graphs:connectivity_of",
+    "parallel_env": "formicarium.commands.calls.learning:parallel_env",
     "check_system": "formicarium.contracts.checking:check_system",
     "Results": "formicarium.commands.calls.results:Results",
     "Trial": "formicarium.trial.record:Trial",
@@ -52,6 +54,7 @@ __all__ = [
     "check_system",
     "connectivity_of",
     "load_results",
+    "parallel_env",
     "parameters",
     "plot_run_times",
     "run_campaign",

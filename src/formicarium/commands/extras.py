@@ -9,6 +9,7 @@ MODULES = {
     "movie": ("imageio_ffmpeg",),
     "mcap": ("foxglove",),
     "scheduling": ("highspy",),
+    "rl": ("pettingzoo", "gymnasium"),
 }
 
 
