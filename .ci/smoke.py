@@ -1,6 +1,7 @@
 """Check an installed formicarium: it runs, and what its extras bring can be imported. Arguments: names of extras."""
 
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -11,12 +12,13 @@ from pathlib import Path
 import formicarium
 from formicarium.commands.extras import MODULES
 
-COMMAND = Path(sysconfig.get_path("scripts")) / "formicarium"
+COMMAND = shutil.which("formicarium", path=sysconfig.get_path("scripts"))
 RUN = ["run", "mark-i3", "--seed", "1", "--set", "time_cap=60", "--workers", "1", "--out", "smoke"]
 
 
 def main(extras: list[str]) -> None:
     """Run a minute of Mark I3 in an empty folder and look at its results."""
+    assert COMMAND is not None, f"there is no command formicarium in {sysconfig.get_path('scripts')}"
     assert "site-packages" in Path(formicarium.__file__).parts, f"{formicarium.__file__} is not installed"
     for name in [name for extra in extras for name in MODULES.get(extra, ())]:
         import_module(name)

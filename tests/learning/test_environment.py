@@ -174,7 +174,7 @@ WRONG = [
     (lambda action: action | {"height": 1.0}, "robot_2: an action has the fields left, right, colour"),
     (lambda action: action | {"left": [0.1, 0.1]}, r"robot_2: left has shape \(2,\): must be \(1,\)"),
     (lambda action: action | {"colour": [8]}, r"robot_2: colour = \[8\]: must be 0 to 7"),
-    (lambda action: action | {"right": [np.nan]}, "robot_2: right is no finite speed in cycle 0"),
+    (lambda action: action | {"right": [np.nan]}, r"robot_2: right = \[nan\]: must be finite"),
 ]
 
 
@@ -183,9 +183,22 @@ def test_an_action_that_is_none_is_named(spoil, words):
     env = made("mark-i3")
     env.reset(seed=1)
     actions = sampled(env)
-    spoiled = spoil(actions.pop("robot_2"))
+    spoiled, before = spoil(actions.pop("robot_2")), env.swarm.commands.tobytes()
     with pytest.raises(ValueError, match=words):
         env.step(actions if spoiled is None else actions | {"robot_2": spoiled})
+    assert env.swarm.commands.tobytes() == before and env.swarm.clock[0].cycle == 0
+
+
+def test_a_behaviour_that_commands_no_number_is_named():
+    env = made("mark-i3", act=("left",))
+
+    def rave(reading, memory, command, *tables):
+        command.right = np.nan
+
+    env._decide = rave
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match="robot_1: its behaviour commands right that is no number in cycle 0"):
+        env.step(sampled(env))
 
 
 @pytest.mark.parametrize("reward", [lambda state, events: [1.0, 2.0], lambda state, events: float("nan")])

@@ -105,18 +105,19 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
             (the time cap came first) and empty infos, each by agent.
 
         Raises:
-            ValueError: if no trial goes on, an action is missing or not allowed, or the reward is no number.
+            ValueError: if no trial goes on, or an action is missing or not allowed, and nothing has happened then; if
+                a behaviour's speed or a reward is no number.
         """
         if not self.agents:
             raise ValueError("no trial goes on: call reset()")
         acting, state = self.agents, self.swarm
+        checked = {agent: self._checked(agent, actions) for agent in acting}
+        if self._decide is not None:
+            self._let_behaviours_decide(acting)
         columns = columns_of(np.asarray(state.commands), self._acted)
-        for agent in acting:
-            if agent not in actions:
-                raise ValueError(f"{agent}: its action is missing; every agent of env.agents needs one")
-            self._decide_for(agent)
-            self._command(agent, actions[agent], columns)
-        self._check_speeds()
+        for agent, values in checked.items():
+            for name, value in values.items():
+                columns[name][self._places[agent]] = value
         self._onboard.after(state)
         clock, alive = state.clock[0], state.robots["alive"]
         rewards = self._rewards(acting, drain(state))
@@ -137,32 +138,36 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         columns = columns_of(blanked(self.swarm.readings), self._observed)
         return {agent: {name: column[self._places[agent]] for name, column in columns.items()} for agent in agents}
 
-    def _decide_for(self, agent: str) -> None:
-        """Let a robot's own behaviour decide, if the learner leaves it something."""
-        if self._decide is not None:
-            i, state = self._places[agent], self.swarm
-            self._decide(state.readings[i], state.memories[i], state.commands[i], *self._tables)
-
-    def _command(self, agent: str, action: Mapping[str, Any], columns: Fields) -> None:
-        """Write what the learner decides into a robot's Command."""
-        if action.keys() != self._boxes.keys():
-            raise ValueError(f"{agent}: an action has the fields {', '.join(self._boxes)}, not {', '.join(action)}")
-        i = self._places[agent]
+    def _checked(self, agent: str, actions: Mapping[str, Mapping[str, Any]]) -> Fields:
+        """Return an agent's action as arrays. Speeds that are too large stay: the robot itself cuts them."""
+        if agent not in actions:
+            raise ValueError(f"{agent}: its action is missing; every agent of env.agents needs one")
+        if actions[agent].keys() != self._boxes.keys():
+            raise ValueError(
+                f"{agent}: an action has the fields {', '.join(self._boxes)}, not {', '.join(actions[agent])}"
+            )
+        values = {name: np.asarray(value) for name, value in actions[agent].items()}
         for name, box in self._boxes.items():
-            value = np.asarray(action[name])
+            value = values[name]
             if value.shape != box.shape:
                 raise ValueError(f"{agent}: {name} has shape {value.shape}: must be {box.shape}")
+            if box.dtype.kind == "f" and not np.isfinite(value).all():
+                raise ValueError(f"{agent}: {name} = {value.tolist()}: must be finite")
             if box.dtype.kind != "f" and ((value < box.low) | (value > box.high)).any():
                 raise ValueError(f"{agent}: {name} = {value.tolist()}: must be {box.low.min()} to {box.high.max()}")
-            columns[name][i] = value
+        return values
 
-    def _check_speeds(self) -> None:
-        """Refuse speeds that are no numbers; the robot itself cuts those that are too large."""
-        for name, column in columns_of(np.asarray(self.swarm.commands), self._speeds).items():
+    def _let_behaviours_decide(self, agents: Sequence[str]) -> None:
+        """Fill in every robot's Command as its behaviour wants it; what the learner decides is written over it."""
+        assert self._decide is not None
+        state = self.swarm
+        for i in map(self._places.__getitem__, agents):
+            self._decide(state.readings[i], state.memories[i], state.commands[i], *self._tables)
+        for name, column in columns_of(np.asarray(state.commands), self._speeds).items():
             if not np.isfinite(column).all():
                 agent = next(agent for agent, i in self._places.items() if not np.isfinite(column[i]).all())
-                cycle = int(self.swarm.clock[0].cycle)
-                raise ValueError(f"{agent}: {name} is no finite speed in cycle {cycle}")
+                cycle = int(state.clock[0].cycle)
+                raise ValueError(f"{agent}: its behaviour commands {name} that is no number in cycle {cycle}")
 
     def _rewards(self, agents: Sequence[str], events: np.ndarray) -> dict[str, float]:
         if self._reward is None:
