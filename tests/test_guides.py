@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import socket
 import subprocess
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 from formicarium.commands.campaign import study
 from formicarium.commands.main import exit_code
+from hardware.emulated import EmulatedEPuck2, OnTcp
 
 ROOT = Path(__file__).parents[1]
 BLOCK = re.compile(r"^<!-- (?P<kind>[^>]+?) -->\n```\w*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -94,6 +96,34 @@ def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
     results = tmp_path / "formicarium-results"
     assert (results / "connectivity-swarm" / "errors.csv").exists()
     assert (results / "connectivity-seven" / "lambda2.png").exists()
+
+
+def test_the_guide_to_learning_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("pettingzoo")
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "guides" / "learning.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content)
+
+
+def test_the_guide_to_a_real_robot_is_true_of_an_emulated_one(monkeypatch):
+    robot = EmulatedEPuck2()
+    robot.proximity[0] = 4095
+    end, connect = OnTcp(robot), socket.create_connection
+
+    def redirected(place, **options):
+        assert place == ("192.168.1.20", 1000)
+        return connect(("127.0.0.1", end.port), **options)
+
+    monkeypatch.setattr("formicarium.hardware.lines.socket.create_connection", redirected)
+    text = (ROOT / "docs" / "guides" / "real_robot.md").read_text(encoding="utf-8")
+    ((kind, content),) = BLOCK.findall(text)
+    execute(kind, content)
+    end.close()
+    turned_left, stopped = robot.heard[-2], robot.heard[-1]
+    assert turned_left[3] > turned_left[1] and turned_left[6] == 100 and stopped == bytes(19)
 
 
 def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from formicarium.campaigns import table
+from formicarium.commands.calls.graphs import MOST_NODES
 from formicarium.commands.campaign.answers import write_csv
 from formicarium.commands.errors import UserError
 from formicarium.commands.fields import in_words, with_settings
@@ -32,7 +33,6 @@ from formicarium.studies.curves import CurvePanel, CurveSheet, Line
 
 SHOWN = 12  # graphs whose exact values are printed
 SYSTEM = "formicarium.studies.estimators:ESTIMATORS"  # which describes their numbers
-MOST_NODES = 600  # whose vertex connectivity is worth the wait
 
 
 class Asked(NamedTuple):

@@ -13,15 +13,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from formicarium import __version__
+from formicarium.commands.extras import MODULES
 from formicarium.compiled import INTERPRETED, cache_folder
 
 NEEDED = ("numba", "numpy", "scipy", "pydantic", "pyarrow", "matplotlib")
-EXTRAS = {
-    "watch": ("starlette", "uvicorn", "websockets"),
-    "movie": ("imageio_ffmpeg",),
-    "mcap": ("foxglove",),
-    "cluster": ("distributed", "dask_jobqueue"),
-}
 ROOM = 500  # MB of free disk that a cache and a few runs want
 
 
@@ -58,7 +53,7 @@ def examine() -> Iterator[Finding]:
         yield from _cache()
         yield _compiles()
     yield _worker()
-    for extra, modules in EXTRAS.items():
+    for extra, modules in MODULES.items():
         missing = [module for module in modules if find_spec(module) is None]
         remedy = f'python -m pip install "formicarium[{extra}]"'
         yield Finding(f"extra {extra}{' is not installed' if missing else ''}", not missing, remedy, optional=True)

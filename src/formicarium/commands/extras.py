@@ -9,6 +9,8 @@ MODULES = {
     "movie": ("imageio_ffmpeg",),
     "mcap": ("foxglove",),
     "scheduling": ("highspy",),
+    "cluster": ("distributed", "dask_jobqueue"),
+    "rl": ("pettingzoo", "gymnasium"),
 }
 
 

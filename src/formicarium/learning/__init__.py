@@ -1,0 +1,1 @@
+"""A swarm as an environment for learning: agents are robots. Needs the extra "rl"."""
