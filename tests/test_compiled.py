@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from formicarium import compiled
+from formicarium import compiled, sources
 from formicarium.angles import wrapped
 from formicarium.compiled import APART, DECIDING, cache_folder
 from formicarium.sources import PACKAGE, own_files
@@ -208,21 +208,23 @@ def test_a_helper_that_cannot_be_of_help_changes_nothing(reader, tmp_path):
     assert python(program, reader, cache, "failing helper", cache=cache) == "0 2.0"
 
 
-def test_an_edit_of_one_system_outdates_its_own_runs_alone(tmp_path, monkeypatch):
+def test_an_edit_outdates_the_runs_of_those_systems_that_it_can_change(tmp_path, monkeypatch):
     package = tmp_path / "formicarium"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(compiled, "PACKAGE", package)
+    for module in (compiled, sources):
+        monkeypatch.setattr(module, "PACKAGE", package)
     homes = [package / "systems" / name / "study.py" for name in ("sequencing", "partitioning", "coverage")]
 
-    def hashes():
-        return [compiled.system_hash.__wrapped__(home) for home in homes]
+    def kept(*place):
+        """Tell whose runs outlive an edit."""
+        before = [compiled.system_hash.__wrapped__(home) for home in homes]
+        path = package.joinpath(*place)
+        path.write_text(path.read_text() + "\n# another thought\n")
+        return [old == compiled.system_hash.__wrapped__(home) for old, home in zip(before, homes)]
 
-    def edit(place):
-        place.write_text(place.read_text() + "\n# another thought\n")
-
-    first = hashes()
-    edit(package / "systems" / "partitioning" / "behaviour.py")
-    second = hashes()
-    assert [a == b for a, b in zip(first, second)] == [True, False, True]
-    edit(package / "physics" / "step.py")
-    assert not set(hashes()) & set(second)
+    assert kept("systems", "partitioning", "behaviour.py") == [True, False, True]
+    assert kept("robots", "footbot.py") == [True, True, False]
+    assert kept("devices", "depot.py") == [True, False, True]
+    assert kept("trial", "situated.py") == [True, True, False]
+    assert kept("physics", "grid.py") == kept("trial", "simulate.py") == kept("systems", "failing.py") == [False] * 3
+    assert kept("views", "frames.py") == kept("systems", "own.py") == [True] * 3

@@ -23,7 +23,7 @@ from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
-from formicarium.sources import PACKAGE, hash_of, own_files
+from formicarium.sources import PACKAGE, hash_of, own_files, reached
 
 INTERPRETED = os.environ.get("FORMICARIUM_INTERPRETED", "") not in ("", "0")
 
@@ -49,33 +49,31 @@ def _python_files(place: Path) -> list[Path]:
 @functools.cache
 def source_hash() -> str:
     """Hash of every source of the package that decides results: 16 hexadecimal digits."""
-    return _hash_of(*DECIDING)
+    return hash_of(tuple(_sources(*DECIDING)))
 
 
 @functools.cache
 def system_hash(file: Path) -> str:
     """Hash of every source that decides the results of one of the package's systems: 16 hexadecimal digits.
 
-    Part of a run's identity (law 8 of the house). No system imports from another (a contract of the house), so the
-    folders of the others are left out.
+    Part of a run's identity (law 8 of the house). Those are the deciding sources that its file reaches by imports, and
+    what injects failures into any system.
 
     Args:
         file: in which the system is put together.
     """
-    systems = sorted((PACKAGE / "systems").iterdir())
-    others = [place for place in systems if place.is_dir() and not file.is_relative_to(place)]
-    return _hash_of(*DECIDING, without=others)
+    used = set(reached(file, PACKAGE / "systems" / "failing.py"))
+    return hash_of(tuple(source for source in _sources(*DECIDING) if source in used))
 
 
 @functools.cache
 def room_hash(room: str) -> str:
     """Hash of the sources of a room in ``APART``: 16 hexadecimal digits."""
-    return _hash_of("compiled.py", "streams.py", room)
+    return hash_of(tuple(_sources("compiled.py", "streams.py", room)))
 
 
-def _hash_of(*names: str, without: Sequence[Path] = ()) -> str:
-    files = [file for name in names for file in _python_files(PACKAGE / name)]
-    return hash_of(tuple(file for file in files if not any(file.is_relative_to(place) for place in without)))
+def _sources(*names: str) -> list[Path]:
+    return [file for name in names for file in _python_files(PACKAGE / name)]
 
 
 def cache_folder(*modules: tuple[str, str | None]) -> Path:

@@ -3,6 +3,7 @@
 import ast
 import functools
 import hashlib
+import re
 import sys
 from importlib.metadata import PackageNotFoundError, requires
 from importlib.util import find_spec
@@ -34,6 +35,25 @@ def own_files(file: Path, package: str | None) -> tuple[Path, ...]:
         found.add(path)
         for name in _imported(path):
             waiting += [place for place in _files_of(name, root) if place not in found]
+    return tuple(sorted(found))
+
+
+IMPORTED = re.compile(rb"^\s*(?:from|import) formicarium((?:\.\w+)*)", re.MULTILINE)
+
+
+def reached(*files: Path) -> tuple[Path, ...]:
+    """Return files of the package and all that they import from the package, and what that imports, sorted.
+
+    An import from a whole room takes in all files that lie directly in it.
+    """
+    waiting, found = list(files), set()
+    while waiting:
+        path = waiting.pop()
+        if path not in found and path.exists():
+            found.add(path)
+            for name in IMPORTED.findall(path.read_bytes()):
+                place = PACKAGE.joinpath(*name.decode().split(".")[1:])
+                waiting += place.glob("*.py") if place.is_dir() else [place.with_suffix(".py")]
     return tuple(sorted(found))
 
 
