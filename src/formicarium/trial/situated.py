@@ -5,7 +5,7 @@ As in ``trial.phases``, whatever was said and commanded in one cycle is heard an
 
 from formicarium.compiled import compiled
 from formicarium.physics.grid import find_neighbours
-from formicarium.physics.kinematics import drift, glide
+from formicarium.physics.sliding import drift, slide
 from formicarium.robots.footbot import PACKETS
 from formicarium.robots.simulated.beacon import sense_beacon
 from formicarium.robots.simulated.channels import RADIO
@@ -104,7 +104,7 @@ def move(state):
     if state.footbot[0].holonomic == 1:
         drift(state.world)
     else:
-        glide(state.world)
+        slide(state.world)
     look(state)
 
 
