@@ -158,7 +158,7 @@ def test_quotas_are_met_by_correction():
 
 
 def test_phases_follow_each_other_and_everybody_hears_of_them():
-    state = swarm(setting=0, robots=14, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
+    state = swarm(setting=0, robots=10, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
     modes = []
     while not state.clock[0].finished and state.clock[0].cycle < 9000:
         advance(state, 1)

@@ -37,7 +37,10 @@ def keep_link(memory, packet, cycle):
 
 @compiled
 def choose_anchor(reading, memory, table, limit):
-    """Hold on to the nearest neighbour that is clearly nearer to the master; change only for a much nearer one."""
+    """Hold on to the nearest neighbour that is clearly nearer to the master; change only for a much nearer one.
+
+    A link that is nearly as long as ``limit`` (m) ties both its ends down, so it is changed for any that is shorter.
+    """
     if memory.master == 1:
         return
     best = -1
@@ -52,8 +55,16 @@ def choose_anchor(reading, memory, table, limit):
             best = k
     if memory.linked == 0 or best < 0:
         return
-    if own < 0 or reading.packets[best].range < HYSTERESIS * reading.packets[own].range:
+    if own < 0 or is_better(reading.packets[best].range, reading.packets[own].range, table, limit):
         memory.anchor = reading.packets[best].sender
+
+
+@compiled
+def is_better(other, own, table, limit):
+    """Tell whether a link of the length ``other`` is worth giving up one's own for (m)."""
+    if own > table.taut_share * limit:
+        return other < own - table.anchor_margin
+    return other < HYSTERESIS * own
 
 
 @compiled

@@ -134,18 +134,18 @@ def count_behind(reading, memory):
 
 @compiled
 def hear_reached(reading, memory, table):
-    """Pass on the word that an arm's tip is at its task: within the arm, and from its robots to the master.
+    """Pass on the word that an arm's tip is at its task, whosever arm it is: the way from the tip to the master may lead
+    through robots of other arms.
 
     The tip starts it with a number of hops to live; each robot says one less than the most it has heard. So the word
-    dies within as many cycles when the tip has left. Robots of the other arms neither heed nor relay it.
+    dies within as many cycles when the tip has left. Only robots of the arm itself heed it.
     """
     for arm in range(memory.arm_count):
-        most = 0
-        if memory.master == 1 or memory.arm == arm + 1:
-            for k in range(reading.packet_count):
-                packet = reading.packets[k]
-                if packet.arm == arm + 1 and arm < packet.arm_count:
-                    most = max(most, packet.arms[arm].reached)
-        memory.arms[arm].reached = max(0, max(most, memory.arms[arm].reached) - 1)
+        most = memory.arms[arm].reached
+        for k in range(reading.packet_count):
+            packet = reading.packets[k]
+            if arm < packet.arm_count:
+                most = max(most, packet.arms[arm].reached)
+        memory.arms[arm].reached = max(0, most - 1)
     if memory.arm > 0 and reading.beacon == memory.arm and memory.linked == 1:
         memory.arms[memory.arm - 1].reached = table.reached_hops

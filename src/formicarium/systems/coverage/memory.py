@@ -88,6 +88,8 @@ MEMORY = np.dtype(
         ("links", LINK, LINKS),
         # the master's own
         ("corrected", "i8"),  # cycle of the last correction of the arms
+        ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
+        ("agreed", "i8"),  # cycles for which that was everybody and has not changed
         ("held", "i8"),  # cycles for which all tasks were held
         ("all_heard", "i8"),  # cycle at which everybody was last counted
         ("done", "i8"),  # 1 when the programme is over
