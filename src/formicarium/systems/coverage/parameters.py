@@ -51,7 +51,7 @@ class TaskTable(Table):
     travel_direction: float = number(0.0, "rad", "tour: in this direction, in the master's frame [choice]")
     stop: bool = number(True, "1", "arms stop at their tasks [choice ST-43]; off: they stretch on [files]")
     hold_time: float = number(20.0, "s", "tour: tasks are held for so long, all at once [choice]", ge=0)
-    erupt_limit: float = number(600.0, "s", "tour: then the arms that have reached their tasks hold them [choice]", gt=0)
+    erupt_limit: float = number(600.0, "s", "tour: then arms that have reached their tasks hold them [choice]", gt=0)
     gather_limit: float = number(120.0, "s", "tour: a rendez-vous ends by then [choice ST-31]", gt=0)
 
 
@@ -93,7 +93,7 @@ class BehaviourTable(Table):
     )
     correction_cycles: int = number(50, "cycles", "between two corrections of the arms [choice ST-32]", ge=5)
     agreed_cycles: int = number(
-        3, "cycles", "for so long the master must have counted everybody, arm by arm the same, to correct [choice]", ge=0
+        3, "cycles", "for so long everybody must have been counted, arm by arm the same, to correct [choice]", ge=0
     )
     correction_limit: float = number(60.0, "s", "no corrections after so long in a phase [choice ST-32]", ge=0)
 
