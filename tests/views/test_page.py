@@ -212,6 +212,48 @@ def test_foraging_shows_floor_path_objects_and_a_blocked_booth(opened, serving, 
         assert "you block booth green 3" in page.inner_text("#events")
 
 
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
+def test_coverage_shows_arms_links_and_how_word_floods(opened, serving, tmp_path, width, height):
+    with serving("watch", "coverage", "--seed", "900101", "--paused", "--out", "rec", folder=tmp_path) as address:
+        page = opened(address, width, height)
+        page.keyboard.press("m")
+        system = resolve("coverage")
+        session = Session(system, system.configure(), 900101)
+        session.seek(203)
+        while session.state.memories.epoch.max() < 2:
+            session.seek(int(session.state.clock[0].cycle) + 1)
+        called = int(session.state.clock[0].cycle)
+        told = []
+        for cycle in range(called, called + 4):
+            sought(page, cycle)
+            told.append(page.evaluate("[...watching.now.frame.role].filter((role) => role === 2).length"))
+        assert told[0] > 8 > told[-1] == 0  # one hop a cycle: those who flock have not heard of the eruption
+        sought(page, 700)
+        session.seek(700)
+        until(page, "watching.now.frame.packets.length > 0")
+        frame = session.frame()
+        pairs = np.reshape(page.evaluate("[...watching.now.frame.packets]"), (-1, 2))
+        assert pairs.tolist() == session.packets().tolist() and len(pairs) > 30
+        assert page.evaluate("[...watching.now.frame.carried]") == frame.carried[0].tolist()
+        assert {1, 2, 3} <= set(frame.carried[0].tolist())  # each robot wears the number of its arm
+        joined = page.evaluate("[...watching.now.frame.joined]")
+        assert joined == frame.joined[0].tolist() and sum(other >= 0 for other in joined) == 15  # all but the master
+        pixels = """(places) => {
+            const picture = arena.getContext("2d").getImageData(0, 0, arena.width, arena.height);
+            const at = places.map((place) => watching.arena.at(...place).map(Math.round));
+            const starts = at.map(([x, y]) => 4 * (y * arena.width + x));
+            return starts.map((start) => [...picture.data.slice(start, start + 3)]);
+        }"""
+        page.keyboard.press("m")
+        page.click("[data-layer=trails]")
+        page.wait_for_timeout(300)
+        x, y = frame.x[0], frame.y[0]
+        middles = [[float(x[i] + x[j]) / 2, float(y[i] + y[j]) / 2] for i, j in enumerate(joined) if j >= 0]
+        floor, *links = page.evaluate(pixels, [[float(x.min()) - 0.5, float(y.max())], *middles])
+        assert all(np.abs(np.subtract(link, floor)).max() > 20 for link in links)  # lines from each to the next
+        assert page.is_hidden("#devices")  # a task is no booth: nobody can block it
+
+
 def test_the_keyboard_does_what_the_buttons_do(watched, opened):
     page = opened(watched)
     cycle = settled(page)

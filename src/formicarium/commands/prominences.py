@@ -20,7 +20,7 @@ from formicarium.studies.prominences import Row, cells_of, table_1_rows
 
 TABLE_1, ARMS, SAFE, DROPS = "coverage-table-1", "coverage-arms", "coverage-safe", "coverage-drops"
 OCCLUSION, PICTURES = "coverage-occlusion", "coverage-figures"
-LABORATORY, SCALE = "coverage-laboratory", "coverage-scale"
+LABORATORY, SCALE, TOURS = "coverage-laboratory", "coverage-scale", "coverage-tours"
 DESIGNS = {
     "table-1": (TABLE_1,),
     "arms": (ARMS,),
@@ -31,7 +31,8 @@ DESIGNS = {
     "5": (PICTURES,),
     "laboratory": (LABORATORY,),
     "scale": (SCALE,),
-    "all": (SAFE, TABLE_1, ARMS, PICTURES, LABORATORY, DROPS, OCCLUSION, SCALE),
+    "tours": (TOURS,),
+    "all": (SAFE, TABLE_1, TOURS, ARMS, PICTURES, LABORATORY, DROPS, OCCLUSION, SCALE),
 }
 CHARTS: dict[str, tuple[Callable[[Sequence[Row]], Chart], str]] = {
     "table-1": (figures.figure_table_1, TABLE_1),
@@ -99,7 +100,7 @@ def draw_swarms(figure: str, folder: Path) -> list[Path]:
     from formicarium.views.frames import draw_frame
 
     system = find_system("coverage")
-    seed = 147001
+    seed = 157001
     paths = []
     for setting in SHOWN[figure]:
         trial = system.run(system.configure(setting), seed, frames_every=5.0)

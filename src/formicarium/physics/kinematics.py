@@ -26,22 +26,6 @@ def glide(world):
 
 
 @compiled
-def drift(world):
-    """Advance holonomic bodies by one control cycle: each goes straight on with its speed_x and speed_y."""
-    time = world.settings[0].cycle_time
-    for i in range(len(world.bodies)):
-        body = world.bodies[i]
-        start = world.solver.motions[i]
-        start.x = body.x
-        start.y = body.y
-        start.touched = 0
-        body.x += body.speed_x * time
-        body.y += body.speed_y * time
-        body.heading += body.turning * time
-    disentangle(world, time)
-
-
-@compiled
 def disentangle(world, time):
     """Take back what led into others and walls, and write down the speeds that are left (s, one cycle)."""
     for _ in range(PASSES):
@@ -49,6 +33,12 @@ def disentangle(world, time):
             break
     while hold_back(world):
         pass
+    note_speeds(world, time)
+
+
+@compiled
+def note_speeds(world, time):
+    """Write down how fast the bodies really were (s, one cycle)."""
     for i in range(len(world.bodies)):
         body = world.bodies[i]
         start = world.solver.motions[i]

@@ -14,6 +14,7 @@ from formicarium.tables import Table, number
 
 ARMS = 6  # arms that a message has room for
 PACKETS = 128  # messages a robot can hear in one cycle; a swarm has no more robots
+IDENTITIES = 256  # robots have numbers below this
 ENTRIES = 50  # neighbours whose bearing a message has room for
 
 

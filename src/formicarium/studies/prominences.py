@@ -129,6 +129,8 @@ def summed_up(cell: Sequence[Row]) -> dict[str, Any]:
         numbers[name] = finite(median(cell, name))
     for name in ("tasks_covered", "tasks_covered_end"):
         numbers[f"{name}_mean"] = float(np.mean([row[name] for row in cell]))
+    numbers["held"] = sum(row["held"] for row in cell)
+    numbers["eruption_s"] = finite(float(np.median([eruption_of(row) for row in cell])))
     for name in ("firm_share", "cut_robots_mean", "lambda_2_least", "lambda_2_mean", "flips_per_robot_minute"):
         numbers[name] = finite(median(cell, name))
     long = [row for row in cell if row["long_arm_looks"]]
@@ -136,6 +138,11 @@ def summed_up(cell: Sequence[Row]) -> dict[str, Any]:
     numbers["long_arm_firm_share"] = finite(median(long, "long_arm_firm_share")) if long else None
     numbers["bytes_most"] = max(row["bytes_most"] for row in cell)
     return numbers
+
+
+def eruption_of(row: Row) -> float:
+    """Return how long a tour's arms took to reach all tasks (s); infinitely long if they were not held then."""
+    return float(row["hold_called_s"]) - float(row["erupt_called_s"]) if row["held"] else math.inf
 
 
 def finite(value: float) -> float | None:

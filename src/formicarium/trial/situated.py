@@ -5,7 +5,7 @@ As in ``trial.phases``, whatever was said and commanded in one cycle is heard an
 
 from formicarium.compiled import compiled
 from formicarium.physics.grid import find_neighbours
-from formicarium.physics.kinematics import drift, glide
+from formicarium.physics.sliding import drift, slide
 from formicarium.robots.footbot import PACKETS
 from formicarium.robots.simulated.beacon import sense_beacon
 from formicarium.robots.simulated.channels import RADIO
@@ -38,10 +38,14 @@ def spread_word(state, footbot, cycle):
     """
     for i in range(len(state.robots)):
         state.readings[i].packet_count = 0
+    entry_of = state.entry_of
     for place in range(len(state.robots)):
         j = state.world.lists[place].order
         if state.robots[j].alive == 0 or state.robots[j].speaking == 0:
             continue
+        command = state.commands[j]
+        for e in range(command.message.entry_count - 1, -1, -1):
+            entry_of[command.message.entries[e].receiver] = e + 1
         for n in range(state.world.neighbour_count[j]):
             near = state.world.neighbours[j, n]
             i = near.index
@@ -56,11 +60,13 @@ def spread_word(state, footbot, cycle):
             if reading.packet_count == PACKETS:
                 continue
             packet = reading.packets[reading.packet_count]
-            hear(packet, state.commands[j].message, reading.identity)
+            hear(packet, command.message, entry_of[reading.identity] - 1)
             measure_speaker(packet, near, state.world.bodies[i].heading, noise, footbot)
             reading.packet_count += 1
             state.robots[i].packets_heard += 1
             state.heard[i, j] = cycle
+        for e in range(command.message.entry_count):
+            entry_of[command.message.entries[e].receiver] = 0
 
 
 @compiled
@@ -104,7 +110,7 @@ def move(state):
     if state.footbot[0].holonomic == 1:
         drift(state.world)
     else:
-        glide(state.world)
+        slide(state.world)
     look(state)
 
 
@@ -112,4 +118,4 @@ def move(state):
 def look(state):
     """Find who is near whom and in sight."""
     find_neighbours(state.world)
-    find_sight(state.world, state.sight, state.footbot[0].radio_range)
+    find_sight(state.world, state.sight, state.footbot[0].radio_range, state.rows)

@@ -47,3 +47,4 @@ class Watching(NamedTuple):
     tell: Callable[[Any], str]  # EVENT -> one sentence
     intervene: Callable[[Any, Intervention], None]  # changes the state, or raises Impossible and leaves it
     outcome: Callable[[Any, Any, Any], Mapping[str, Any]]  # (parameters, state, events) -> row, as ``run`` gives it
+    blockable: bool = True  # whether its devices are booths that a person may block

@@ -12,7 +12,8 @@ from formicarium.control.potentials import lennard_jones, lennard_jones_printed,
 from formicarium.control.turning import Turning, drive_towards, turn_state
 from formicarium.physics.records import records
 from formicarium.robots.footbot import COMMAND
-from formicarium.systems.coverage.memory import Mode
+from formicarium.systems.coverage.master import correct_arms
+from formicarium.systems.coverage.memory import Mode, Stage
 from systems.coverage.swarm import advance, line, move, stay, swarm
 
 POSES = st.tuples(*[st.floats(-50.0, 50.0)] * 2, st.floats(-20.0, 20.0))
@@ -156,8 +157,59 @@ def test_quotas_are_met_by_correction():
     assert met >= 9
 
 
+def test_an_anchor_at_the_limit_of_its_link_is_changed_for_a_nearer_one():
+    """One robot is tied to another behind the master, 2.62 m away; the master itself is at 2.3 m."""
+    state = swarm([(0.0, 0.0, 0.0), (-0.3, 0.3, 0.0), (2.3, 0.0, 0.0)], behaviour={"variant": "safe"})
+    stay(state, 10)
+    identity = state.robots.identity.tolist()
+    state.memories[2].anchor = identity[1]
+    assert stay(state, 1).memories[2].anchor == identity[0]
+    slack = move(state, 1, 1.0, 1.3)  # at 1.84 m; the master's 2.3 m are no reason to change
+    slack.memories[2].anchor = identity[1]
+    assert stay(slack, 1).memories[2].anchor == identity[1]
+
+
+def test_counts_in_which_errors_make_up_for_each_other_correct_nothing():
+    """Who changes its way to the master is counted twice or not at all for a cycle."""
+    state = advance(swarm(setting=5), 300)
+    master, chart, table = state.memories[0], state.charts[0], state.behaviour[0]
+    memory = master.copy()
+    memory.corrected, memory.agreed, memory.correction = 0, 0, 7
+    for cycle, counts in enumerate([(5, 6, 4), (6, 5, 4), (5, 6, 4), (5, 5, 4), (5, 6, 4)]):
+        memory.arms["count"][:3] = counts
+        correct_arms(memory, table, chart, 300 + cycle)
+    assert memory.correction == 7
+    for cycle in range(3):
+        memory.arms["count"][:3] = (5, 6, 4)
+        correct_arms(memory, table, chart, 305 + cycle)
+    assert memory.correction == 8 and memory.arms["leave"][:3].tolist() == [0.0, 1 / 6, 0.0]
+
+
+def test_word_of_a_task_goes_through_robots_of_other_arms():
+    """ST-43: the flag comes down the gradient, whoever is on the way; only the arm itself stops for it."""
+    state = swarm(line(4), tasks={"count": 2, "distance": 6.0, "stop": True})
+    stay(state, 10)
+    state.memories.arm[1:] = (2, 2, 1)
+    state.beacons.x[0], state.beacons.y[0], state.beacons.arm[0] = 6.0, 0.0, 1
+    stay(state, 10)
+    assert state.memories[0].arms["reached"][:2].tolist() == [57, 0]
+    assert state.memories.stage[3] == Stage.HOLDING and (state.memories.stage[1:3] != Stage.HOLDING).all()
+    assert (stay(move(state, 3, 40.0, 0.0), 70).memories.arms["reached"][:3, :2] == 0).all()
+
+
+def test_when_a_tip_has_left_the_others_go_on_though_the_master_holds():
+    state = swarm(line(3), tasks={"distance": 4.0, "stop": True})
+    state.beacons.x[0], state.beacons.y[0] = 4.0, 0.0
+    stay(state, 10)
+    assert state.memories.stage[2] == Stage.HOLDING
+    state.memories.mode, state.memories.epoch = Mode.HOLD, 9
+    state.beacons.x[0] = 40.0
+    stay(state, 70)
+    assert (state.memories.stage[1:] != Stage.HOLDING).all()
+
+
 def test_phases_follow_each_other_and_everybody_hears_of_them():
-    state = swarm(setting=0, robots=14, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
+    state = swarm(setting=0, robots=10, tasks={"distance": 4.0, "travel": 2.0, "hold_time": 3.0, "count": 2})
     modes = []
     while not state.clock[0].finished and state.clock[0].cycle < 9000:
         advance(state, 1)

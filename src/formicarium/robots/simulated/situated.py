@@ -8,38 +8,64 @@ from formicarium.streams import advanced, normal
 
 
 @compiled
-def find_sight(world, sight, radio_range):
+def find_sight(world, sight, radio_range, rows):
     """Write into ``sight`` (N, N) for every pair within ``radio_range`` (m) 1 if no body is between them, else 0.
 
-    As ``physics.rays.bodies_in_line_of_sight``, for a world without scenery: pairs are looked at once.
+    As ``physics.rays.bodies_in_line_of_sight``, for a world without scenery: pairs are looked at once, and a body's
+    neighbours in the order of their distances: the nearest, which hide most, come first, and those behind not at all.
+
+    Args:
+        world: the bodies, with the lists of their neighbours.
+        sight: written.
+        radio_range: m, farther pairs are not in sight.
+        rows: (4, N) scratch.
     """
     sight[:] = 0
-    bodies = world.bodies
-    neighbours = world.neighbours
-    for i in range(len(bodies)):
+    widest = 0.0
+    for i in range(len(world.bodies)):
+        widest = max(widest, world.bodies[i].radius)
+    for i in range(len(world.bodies)):
         rank = world.lists[i].rank
+        count = sort_by_distance(world, i, rows)
         for n in range(world.neighbour_count[i]):
-            j = neighbours[i, n].index
-            if neighbours[i, n].distance <= radio_range and world.lists[j].rank > rank:
-                if is_clear(bodies, neighbours, i, n, world.neighbour_count[i]):
-                    sight[i, j] = 1
-                    sight[j, i] = 1
+            near = world.neighbours[i, n]
+            if near.distance <= radio_range and world.lists[near.index].rank > rank:
+                if is_clear(rows, count, near, widest):
+                    sight[i, near.index] = 1
+                    sight[near.index, i] = 1
 
 
 @compiled
-def is_clear(bodies, neighbours, i, n, count):
-    """Tell whether no third body is on the line from body ``i``, which has ``count`` neighbours, to its n-th."""
-    x = neighbours[i, n].dx
-    y = neighbours[i, n].dy
-    distance = neighbours[i, n].distance
+def sort_by_distance(world, i, rows):
+    """Write dx, dy, distance, radius (m) of a body's neighbours into four rows, nearest first; return their number."""
+    count = world.neighbour_count[i]
+    for n in range(count):
+        near = world.neighbours[i, n]
+        place = n
+        while place > 0 and rows[2, place - 1] > near.distance:
+            for row in range(4):
+                rows[row, place] = rows[row, place - 1]
+            place -= 1
+        rows[0, place] = near.dx
+        rows[1, place] = near.dy
+        rows[2, place] = near.distance
+        rows[3, place] = world.bodies[near.index].radius
+    return count
+
+
+@compiled
+def is_clear(rows, count, near, widest):
+    """Tell whether no other of ``count`` neighbours in ``rows``, at most ``widest`` (m), is on the line to one."""
+    distance = near.distance
     square = distance * distance
-    for between in range(count):
-        near = neighbours[i, between]
-        along = near.dx * x + near.dy * y
-        if between != n and 0.0 < along < square:
-            across = near.dx * y - near.dy * x
-            hidden = bodies[near.index].radius * distance
-            if across * across < hidden * hidden:
+    for n in range(count):
+        if rows[2, n] > distance + widest:
+            return True
+        along = rows[0, n] * near.dx + rows[1, n] * near.dy
+        if 0.0 < along < square:
+            across = rows[0, n] * near.dy - rows[1, n] * near.dx
+            hidden = rows[3, n] * distance
+            if across * across < hidden * hidden and (rows[0, n] != near.dx or rows[1, n] != near.dy):
                 return False
     return True
 
@@ -55,8 +81,8 @@ def measure_speaker(packet, near, heading, noise, footbot):
 
 
 @compiled
-def hear(packet, message, identity):
-    """Copy the head of a message, and of what it tells to single neighbours only the own part."""
+def hear(packet, message, entry):
+    """Copy the head of a message, and of what it tells to single neighbours only one ``entry``, none if that is -1."""
     packet.sender = message.sender
     packet.sequence = message.sequence
     packet.epoch = message.epoch
@@ -83,10 +109,5 @@ def hear(packet, message, identity):
         packet.arms[k].leave = message.arms[k].leave
         packet.arms[k].count = message.arms[k].count
         packet.arms[k].reached = message.arms[k].reached
-    packet.named = 0
-    packet.bearing_of_me = 0.0
-    for e in range(message.entry_count):
-        if message.entries[e].receiver == identity:
-            packet.named = 1
-            packet.bearing_of_me = message.entries[e].bearing
-            return
+    packet.named = 1 if entry >= 0 else 0
+    packet.bearing_of_me = message.entries[entry].bearing if entry >= 0 else 0.0

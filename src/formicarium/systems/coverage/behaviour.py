@@ -39,11 +39,8 @@ def decide(reading, memory, command, table, chart, footbot):
         lead(reading, memory, command, table, chart, footbot)
     elif memory.mode == Mode.FLOCK:
         keep_up(reading, memory, command, table, footbot)
-    elif memory.mode == Mode.ERUPT:
+    elif memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
         erupt(reading, memory, command, table, chart, footbot)
-    elif memory.mode == Mode.HOLD:
-        memory.stage = Stage.HOLDING
-        clear(command)
     elif memory.mode == Mode.GATHER:
         gather(reading, memory, command, table, footbot)
     else:

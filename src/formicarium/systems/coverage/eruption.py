@@ -7,7 +7,7 @@ from formicarium.compiled import compiled
 from formicarium.control.bearings import carried_over, carried_over_printed
 from formicarium.systems.coverage.arms import chance
 from formicarium.systems.coverage.forces import clear, press, wish
-from formicarium.systems.coverage.memory import Stage
+from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
 # How a spiral opens in the authors' files, by number modulo 20 (ST-40).
@@ -69,12 +69,14 @@ def erupt(reading, memory, command, table, chart, footbot):
     """Do what an eruption asks of a backbone robot.
 
     Of an arm whose tip is at its task those stand still that are in line; the others go on until they are, or they
-    would stand in the way of other arms.
+    would stand in the way of other arms. So it is while the master counts the time for which all tasks are held: a tip
+    may have left since.
     """
     if memory.reference_place >= 0 and memory.arm > 0:
         note_alignment(memory, table)
     in_place = memory.aligned == 1 or reading.beacon == memory.arm or memory.stage == Stage.HOLDING
-    if chart.stop == 1 and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and in_place:
+    stops = chart.stop == 1 or memory.mode == Mode.HOLD
+    if stops and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and in_place:
         memory.stage = Stage.HOLDING
         clear(command)
     elif memory.reference_place >= 0 and memory.arm > 0:

@@ -15,7 +15,7 @@ HYSTERESIS = 0.8  # another anchor must be nearer by this factor
 @compiled
 def link_of(memory, who):
     """Return the place of a link in memory, -1 for none."""
-    for k in range(LINKS):
+    for k in range(memory.link_count):
         if memory.links[k].who == who:
             return k
     return -1
@@ -25,8 +25,9 @@ def link_of(memory, who):
 def keep_link(memory, packet, cycle):
     """Note where a neighbour is whose link must not break."""
     k = link_of(memory, packet.sender)
-    if k < 0:
-        k = link_of(memory, 0)
+    if k < 0 and memory.link_count < LINKS:
+        k = memory.link_count
+        memory.link_count += 1
     if k >= 0:
         link = memory.links[k]
         link.who = packet.sender
@@ -36,8 +37,23 @@ def keep_link(memory, packet, cycle):
 
 
 @compiled
+def drop_link(memory, k):
+    """Forget a link; the last one takes its place."""
+    memory.link_count -= 1
+    last = memory.links[memory.link_count]
+    link = memory.links[k]
+    link.who = last.who
+    link.heard = last.heard
+    link.before = last.before
+    link.beside = last.beside
+
+
+@compiled
 def choose_anchor(reading, memory, table, limit):
-    """Hold on to the nearest neighbour that is clearly nearer to the master; change only for a much nearer one."""
+    """Hold on to the nearest neighbour that is clearly nearer to the master; change only for a much nearer one.
+
+    A link that is nearly as long as ``limit`` (m) ties both its ends down, so it is changed for any that is shorter.
+    """
     if memory.master == 1:
         return
     best = -1
@@ -52,8 +68,16 @@ def choose_anchor(reading, memory, table, limit):
             best = k
     if memory.linked == 0 or best < 0:
         return
-    if own < 0 or reading.packets[best].range < HYSTERESIS * reading.packets[own].range:
+    if own < 0 or is_better(reading.packets[best].range, reading.packets[own].range, table, limit):
         memory.anchor = reading.packets[best].sender
+
+
+@compiled
+def is_better(other, own, table, limit):
+    """Tell whether a link of the length ``other`` is worth giving up one's own for (m)."""
+    if own > table.taut_share * limit:
+        return other < own - table.anchor_margin
+    return other < HYSTERESIS * own
 
 
 @compiled
@@ -67,11 +91,10 @@ def note_links(reading, memory, table, limit):
         else:
             place = link_of(memory, packet.sender)
             if place >= 0:
-                memory.links[place].who = 0
-    for k in range(LINKS):
-        link = memory.links[k]
-        if link.who != 0 and reading.cycle - link.heard > table.keep_cycles:
-            link.who = 0
+                drop_link(memory, place)
+    for k in range(memory.link_count - 1, -1, -1):
+        if reading.cycle - memory.links[k].heard > table.keep_cycles:
+            drop_link(memory, k)
 
 
 @compiled
@@ -85,10 +108,8 @@ def allowed(memory, ahead, aside, other, limit, cycle):
     square = ahead * ahead + aside * aside
     if square == 0.0:
         return share
-    for k in range(LINKS):
+    for k in range(memory.link_count):
         link = memory.links[k]
-        if link.who == 0:
-            continue
         reach = limit - other * (cycle - link.heard + 1)
         # |link - share step|^2 = reach^2; the larger root is where the step leaves the circle.
         along = link.before * ahead + link.beside * aside
@@ -114,10 +135,10 @@ def restrain_wish(memory, command, footbot, limit, cycle, cycle_time):
     if share < 1.0:
         worst = -1
         longest = limit
-        for k in range(LINKS):
+        for k in range(memory.link_count):
             link = memory.links[k]
             length = math.sqrt(link.before * link.before + link.beside * link.beside)
-            if link.who != 0 and length > longest:
+            if length > longest:
                 longest = length
                 worst = k
         if worst >= 0:

@@ -4,7 +4,7 @@ import math
 
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
-from formicarium.systems.coverage.memory import LINKS, Stage
+from formicarium.systems.coverage.memory import Stage
 
 BUZZ = 1  # place of "buzz" among the variants
 BUZZ_RESET = 100  # cycles between two resets of the gradient in the authors' files
@@ -18,13 +18,12 @@ def carry(reading, memory):
     for k in range(memory.arm_count):
         memory.arms[k].direction = wrapped(memory.arms[k].direction - reading.turned)
     memory.way_back = wrapped(memory.way_back - reading.turned)
-    for k in range(LINKS):
+    for k in range(memory.link_count):
         link = memory.links[k]
-        if link.who != 0:
-            before = link.before - reading.moved_ahead
-            beside = link.beside - reading.moved_aside
-            link.before = cosine * before + sine * beside
-            link.beside = cosine * beside - sine * before
+        before = link.before - reading.moved_ahead
+        beside = link.beside - reading.moved_aside
+        link.before = cosine * before + sine * beside
+        link.beside = cosine * beside - sine * before
     ahead = math.cos(memory.facing)
     aside = math.sin(memory.facing)
     memory.way_ahead += ahead * reading.moved_ahead - aside * reading.moved_aside
@@ -134,18 +133,18 @@ def count_behind(reading, memory):
 
 @compiled
 def hear_reached(reading, memory, table):
-    """Pass on the word that an arm's tip is at its task: within the arm, and from its robots to the master.
+    """Pass on the word that an arm's tip is at its task, whosever arm it is.
 
-    The tip starts it with a number of hops to live; each robot says one less than the most it has heard. So the word
-    dies within as many cycles when the tip has left. Robots of the other arms neither heed nor relay it.
+    The way from the tip to the master may lead through robots of other arms. The tip starts the word with a number of
+    hops to live; each robot says one less than the most it has heard. So it dies within as many cycles when the tip has
+    left. Only robots of the arm itself heed it.
     """
     for arm in range(memory.arm_count):
-        most = 0
-        if memory.master == 1 or memory.arm == arm + 1:
-            for k in range(reading.packet_count):
-                packet = reading.packets[k]
-                if packet.arm == arm + 1 and arm < packet.arm_count:
-                    most = max(most, packet.arms[arm].reached)
-        memory.arms[arm].reached = max(0, max(most, memory.arms[arm].reached) - 1)
+        most = memory.arms[arm].reached
+        for k in range(reading.packet_count):
+            packet = reading.packets[k]
+            if arm < packet.arm_count:
+                most = max(most, packet.arms[arm].reached)
+        memory.arms[arm].reached = max(0, most - 1)
     if memory.arm > 0 and reading.beacon == memory.arm and memory.linked == 1:
         memory.arms[memory.arm - 1].reached = table.reached_hops

@@ -47,8 +47,8 @@ def lead(reading, memory, command, table, chart, footbot):
     memory.stage = Stage.FLOCKING if memory.mode == Mode.FLOCK else Stage.WAITING
     if memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
         point_out(memory, chart)
-    if memory.mode == Mode.ERUPT and table.arm_choice == QUOTA:
-        correct_arms(memory, table, chart, cycle)
+        if table.arm_choice == QUOTA and not all_reached(memory):
+            correct_arms(memory, table, chart, cycle)
 
 
 @compiled
@@ -109,17 +109,31 @@ def quota(chart, k):
 
 
 @compiled
+def note_tally(memory, chart):
+    """Note for how many cycles running everybody was counted, arm by arm the same.
+
+    Who changes its way to the master is counted twice or not at all meanwhile, and such errors may make up for each
+    other in the sum.
+    """
+    total = 0
+    same = True
+    for k in range(memory.arm_count):
+        total += memory.arms[k].count
+        same = same and memory.arms[k].count == memory.tally[k]
+        memory.tally[k] = memory.arms[k].count
+    memory.agreed = memory.agreed + 1 if same and total == chart.robots - 1 else 0
+
+
+@compiled
 def correct_arms(memory, table, chart, cycle):
     """Ask some robots of arms that are too strong to draw again among those that are too weak.
 
     Only when everybody is counted and has an arm, and not later than ``correction_limit`` into the eruption.
     """
+    note_tally(memory, chart)
     if cycle - memory.since > chart.correction_limit or cycle - memory.corrected < table.correction_cycles:
         return
-    total = 0
-    for k in range(memory.arm_count):
-        total += memory.arms[k].count
-    if total != chart.robots - 1:
+    if memory.agreed < table.agreed_cycles:
         return
     wrong = False
     for k in range(memory.arm_count):

@@ -258,6 +258,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "fastest_m_s": math.sqrt(float(survey.fastest)),
         "died": int((events["kind"] == EventKind.DIED).sum()),
         "done": int(state.clock[0].finished),
+        "held_s": round(int(state.memories[survey.master].held) * cycle_time, 6),
+        "held": int(state.memories[survey.master].held >= max(1, state.charts[survey.master].hold_cycles)),
     }
     for mode, name in ((Mode.ERUPT, "erupt"), (Mode.HOLD, "hold"), (Mode.GATHER, "gather")):
         calls = events[(events["kind"] == EventKind.PHASE) & (events["subject"] == mode)]

@@ -36,7 +36,7 @@ class Stage(IntEnum):
 # A neighbour whose link must not break (safe).
 LINK = np.dtype(
     [
-        ("who", "i8"),  # number of the neighbour, 0: no link here
+        ("who", "i8"),  # number of the neighbour
         ("heard", "i8"),  # cycle
         ("before", "f8"),  # m, where it is: ahead,
         ("beside", "f8"),  # m, and aside
@@ -85,9 +85,12 @@ MEMORY = np.dtype(
         ("facing", "f8"),  # rad
         # links to be kept (safe)
         ("anchor", "i8"),  # number of the neighbour upstream
-        ("links", LINK, LINKS),
+        ("link_count", "i8"),
+        ("links", LINK, LINKS),  # of them so many
         # the master's own
         ("corrected", "i8"),  # cycle of the last correction of the arms
+        ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
+        ("agreed", "i8"),  # cycles for which that was everybody and has not changed
         ("held", "i8"),  # cycles for which all tasks were held
         ("all_heard", "i8"),  # cycle at which everybody was last counted
         ("done", "i8"),  # 1 when the programme is over

@@ -51,7 +51,7 @@ class TaskTable(Table):
     travel_direction: float = number(0.0, "rad", "tour: in this direction, in the master's frame [choice]")
     stop: bool = number(True, "1", "arms stop at their tasks [choice ST-43]; off: they stretch on [files]")
     hold_time: float = number(20.0, "s", "tour: tasks are held for so long, all at once [choice]", ge=0)
-    erupt_limit: float = number(600.0, "s", "tour: then the swarm holds what it has [choice]", gt=0)
+    erupt_limit: float = number(600.0, "s", "tour: then arms that have reached their tasks hold them [choice]", gt=0)
     gather_limit: float = number(120.0, "s", "tour: a rendez-vous ends by then [choice ST-31]", gt=0)
 
 
@@ -92,13 +92,19 @@ class BehaviourTable(Table):
         "draw: by the tasks' distances [paper]; quota: and corrected by the master [ST-32]; blocks: by number",
     )
     correction_cycles: int = number(50, "cycles", "between two corrections of the arms [choice ST-32]", ge=5)
-    correction_limit: float = number(60.0, "s", "no corrections after so long in an eruption [choice ST-32]", ge=0)
+    agreed_cycles: int = number(
+        3, "cycles", "for so long everybody must have been counted, arm by arm the same, to correct [choice]", ge=0
+    )
+    correction_limit: float = number(60.0, "s", "no corrections after so long in a phase [choice ST-32]", ge=0)
 
     safe_share: float = number(
         0.92, "1", "safe: no kept link gets longer than this share of r [choice ST-46]", gt=0, le=1
     )
     keep_cycles: int = number(20, "cycles", "safe: who was silent for longer is not kept any more [choice]", ge=1)
     anchor_margin: float = number(0.1, "m", "safe: an anchor is nearer to the master by at least this [choice]", ge=0)
+    taut_share: float = number(
+        0.9, "1", "safe: a link longer than this share of the longest kept is changed for a shorter one [choice]", gt=0
+    )
 
     cohesion: float = number(0.5, "1/s", "e of equation 3 [choice ST-30]", ge=0)
     agreement: float = number(0.6, "1", "f of equation 3, for velocities [choice ST-30]", ge=0)

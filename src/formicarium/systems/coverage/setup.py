@@ -9,7 +9,7 @@ from formicarium.observers.graphs import CONNECTION, GRAPHS, PLACE
 from formicarium.observers.prominences import AXIS, TARGETS
 from formicarium.physics.records import records
 from formicarium.physics.world import World, make_world
-from formicarium.robots.footbot import CHASSIS, COMMAND, READING
+from formicarium.robots.footbot import CHASSIS, COMMAND, IDENTITIES, READING
 from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
 from formicarium.systems.coverage.measures import SEEN, SURVEY, TASK_SEEN
@@ -52,6 +52,7 @@ class CoverageState(NamedTuple):
     seen: np.recarray  # SEEN (N,), the observers'
     laplacian: np.ndarray  # (N, N) scratch of the observers
     rows: np.ndarray  # (4, N) scratch
+    entry_of: np.ndarray  # (IDENTITIES,) scratch: place of a robot's bearing in a message, and one more; 0: none
     events: np.recarray  # EVENT, scratch
     footbot: np.recarray  # tables of numbers, one record each
     behaviour: np.recarray
@@ -105,6 +106,7 @@ def begin(
         seen=make_seen(count),
         laplacian=np.zeros((count, count)),
         rows=np.zeros((4, count)),
+        entry_of=np.zeros(IDENTITIES, np.int64),
         events=records(EVENT, EVENTS_PER_LOOK * count),
         footbot=p.footbot.record(),
         behaviour=p.behaviour.record(),

@@ -97,5 +97,5 @@ COVERAGE = System(
     begin=begin,
     advance=run,
     roles=frame_roles,
-    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
+    watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row, blockable=False),
 )

@@ -99,7 +99,7 @@ def inspect(state: Any, identity: int) -> Inspection:
     packets = sorted(reading["packets"][: int(reading["packet_count"])], key=lambda packet: packet["range"])
     heard = {f"{p['sender']}: {metres(p['range'])}, {degrees(p['bearing'])}": p for p in packets[:HEARD_SHOWN]}
     told = [(str(e["receiver"]), degrees(e["bearing"])) for e in command["message"]["entries"]]
-    links = [link for link in memory["links"] if link["who"]]
+    links = memory["links"][: int(memory["link_count"])]
     message = command["message"]
     return Inspection(
         identity,

@@ -13,6 +13,7 @@ class LoggedFrames:
     """What was recorded, and no more."""
 
     touchable = False
+    blockable = False
     radio = False  # packets are not recorded
     turns = 0
     ended = True

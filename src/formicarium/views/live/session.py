@@ -62,6 +62,7 @@ class Session:
             Unwatchable: if the system does not say how it is shown.
         """
         begin, self._run, self.watching = watching_of(system)
+        self.blockable = self.watching.blockable
         self.system, self.parameters, self.checks = system, parameters, checks
         self.state = begin(parameters, seed)
         self.scene: Scene = self.watching.scene(parameters, self.state)

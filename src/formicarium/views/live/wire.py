@@ -46,6 +46,7 @@ def greeting(session: Any, title: str, kinds: tuple[str, ...]) -> dict[str, Any]
         "kinds": list(kinds),
         "last_cycle": session.last_cycle,
         "touchable": session.touchable,
+        "blockable": session.blockable,
         "radio": session.radio,
     }
 

@@ -22,7 +22,7 @@ const told = {
     find("choose").append(...content.identity.map((id) => element("option", { value: id, textContent: id })));
     find("kinds").append(...content.kinds.map((kind) => element("option", { value: kind, textContent: kind.replaceAll("_", " ") })));
     if (content.touchable) {
-      find("devices").hidden = arena.devices.length === 0;
+      find("devices").hidden = !content.blockable || arena.devices.length === 0;
       find("booths").replaceChildren(...arena.devices.map(([, name], k) => {
         if (name === "object") return element("span", { hidden: true });
         const square = element("i");
