@@ -32,7 +32,7 @@ class Results(NamedTuple):
 
     @property
     def columns(self) -> Mapping[str, np.ndarray]:
-        """Every column as an array (R,): numbers as floats with nan for what is missing, everything else as objects."""
+        """Every column as an array (R,), numbers as floats with nan for what is missing, everything else as objects."""
         return {name: _array(self.table[name]) for name in self.table.column_names}
 
     def trial(self, seed: int) -> Trial:
