@@ -36,6 +36,15 @@ def settled(page):
     return page.evaluate(CYCLE)
 
 
+def placed(page, column):
+    """Return where a robot is drawn, once the picture has come to rest."""
+    before, place = None, page.evaluate(f"watching.arena.place({column})")
+    while place != before:
+        page.wait_for_timeout(200)
+        before, place = place, page.evaluate(f"watching.arena.place({column})")
+    return place
+
+
 def sought(page, cycle):
     ask(page, do="seek", cycle=cycle)
     until(page, f"{CYCLE} === {cycle} && !watching.now.status.seeking")
@@ -77,8 +86,7 @@ def test_a_click_opens_the_right_robot_with_its_messages_decoded(watched, opened
     session = Session(system, system.configure(), SEED)
     session.seek(900)
     for column in (2, 7, 13):
-        time.sleep(0.2)
-        x, y = page.evaluate(f"watching.arena.place({column})")
+        x, y = placed(page, column)
         page.mouse.click(x, y)
         identity = int(session.identity[column])
         until(page, f"watching.now.inspection && watching.now.inspection.identity === {identity}")
@@ -143,8 +151,7 @@ def test_what_is_done_by_hand_happens_is_listed_recorded_and_replayed(opened, se
     with serving("watch", "mark-i3", "--seed", "6", "--paused", "--out", "rec", folder=tmp_path) as address:
         page = opened(address)
         sought(page, 200)
-        time.sleep(0.3)
-        x, y = page.evaluate("watching.arena.place(4)")
+        x, y = placed(page, 4)
         page.mouse.click(x, y)
         identity = page.evaluate("watching.now.selected")
         page.click("#kill")
@@ -159,7 +166,7 @@ def test_what_is_done_by_hand_happens_is_listed_recorded_and_replayed(opened, se
         gone = np.abs(np.subtract(page.evaluate(PLACES), before)).reshape(2, -1)
         assert gone[:, 4].max() < 0.1 and gone.max() > 0.3  # others may push what is dead
         column = 9
-        start = page.evaluate(f"watching.arena.place({column})")
+        start = placed(page, column)
         page.mouse.move(*start)
         page.mouse.down()
         page.mouse.move(start[0] + 40, start[1] + 3, steps=4)
@@ -278,13 +285,12 @@ def test_the_keyboard_does_what_the_buttons_do(watched, opened):
 def test_one_can_go_nearer_and_still_click_the_right_robot(watched, opened):
     page = opened(watched)
     settled(page)
-    x, y = page.evaluate("watching.arena.place(11)")
+    x, y = placed(page, 11)
     page.mouse.move(x, y)
     before = page.evaluate("watching.arena.scale")
     page.mouse.wheel(0, -500)
     until(page, f"watching.arena.scale > {2 * before}")
-    time.sleep(0.2)
-    nearer = page.evaluate("watching.arena.place(11)")
+    nearer = placed(page, 11)
     assert np.hypot(nearer[0] - x, nearer[1] - y) < 5  # a wheel event has whole pixels, magnified
     page.mouse.click(*nearer)
     until(page, "watching.now.inspection")
