@@ -52,16 +52,21 @@ def execute(kind, text, codes=None):
         assert kind == "at the cluster"
 
 
+def follow(guide, codes=None):
+    """Do all that a guide says, in its order; ``codes`` as of ``execute``."""
+    text = (ROOT / "docs" / "guides" / f"{guide}.md").read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    assert len(blocks) == text.count("```") // 2
+    for kind, content in blocks:
+        execute(kind, content, codes)
+
+
 def test_the_guide_to_campaigns_is_true(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
     short, original = study.Overrides(settings=(SHORT[1],)), study.open_study
     monkeypatch.setattr(study, "open_study", lambda path, out, given=short: original(path, out, given))
-    text = (ROOT / "docs" / "guides" / "campaigns.md").read_text(encoding="utf-8")
-    blocks = BLOCK.findall(text)
-    assert len(blocks) == text.count("```") // 2
-    for kind, content in blocks:
-        execute(kind, content)
+    follow("campaigns")
     assert exit_code(["campaign", "plan", "settings.toml", *SHORT]) == 0
     assert exit_code(["campaign", "run", "study.toml", "--workers", "1", "--out", "alone", *SHORT]) == 0
     names = ("alone", "formicarium-results/how-many", "on-dask", "on-slurm")
@@ -76,11 +81,7 @@ def test_the_guide_to_watching_is_true(tmp_path, monkeypatch):
     shown = []
     for place in ("showing", "replaying"):
         monkeypatch.setattr(f"formicarium.commands.{place}.show", lambda session, *_: shown.append(session) or 0)
-    text = (ROOT / "docs" / "guides" / "watching.md").read_text(encoding="utf-8")
-    blocks = BLOCK.findall(text)
-    assert len(blocks) == text.count("```") // 2
-    for kind, content in blocks:
-        execute(kind, content, {"diff": 1})
+    follow("watching", {"diff": 1})
     assert len(shown) == 2
     names = {file.name for file in tmp_path.iterdir()}
     assert names >= {"seven.mp4", "seven.svg", "seven.html", "seed-7.mcap", "trajectories-seed-7.csv"}
@@ -88,11 +89,7 @@ def test_the_guide_to_watching_is_true(tmp_path, monkeypatch):
 
 def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "docs" / "guides" / "connectivity.md").read_text(encoding="utf-8")
-    blocks = BLOCK.findall(text)
-    assert len(blocks) == text.count("```") // 2
-    for kind, content in blocks:
-        execute(kind, content)
+    follow("connectivity")
     results = tmp_path / "formicarium-results"
     assert (results / "connectivity-swarm" / "errors.csv").exists()
     assert (results / "connectivity-seven" / "lambda2.png").exists()
@@ -101,11 +98,7 @@ def test_the_guide_to_connectivity_is_true(tmp_path, monkeypatch):
 def test_the_guide_to_learning_is_true(tmp_path, monkeypatch):
     pytest.importorskip("pettingzoo")
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "docs" / "guides" / "learning.md").read_text(encoding="utf-8")
-    blocks = BLOCK.findall(text)
-    assert len(blocks) == text.count("```") // 2
-    for kind, content in blocks:
-        execute(kind, content)
+    follow("learning")
 
 
 def test_the_guide_to_a_real_robot_is_true_of_an_emulated_one(monkeypatch):
@@ -118,9 +111,7 @@ def test_the_guide_to_a_real_robot_is_true_of_an_emulated_one(monkeypatch):
         return connect(("127.0.0.1", end.port), **options)
 
     monkeypatch.setattr("formicarium.hardware.lines.socket.create_connection", redirected)
-    text = (ROOT / "docs" / "guides" / "real_robot.md").read_text(encoding="utf-8")
-    ((kind, content),) = BLOCK.findall(text)
-    execute(kind, content)
+    follow("real_robot")
     end.close()
     turned_left, stopped = robot.heard[-2], robot.heard[-1]
     assert turned_left[3] > turned_left[1] and turned_left[6] == 100 and stopped == bytes(19)
@@ -129,9 +120,5 @@ def test_the_guide_to_a_real_robot_is_true_of_an_emulated_one(monkeypatch):
 def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):
     pytest.importorskip("highspy")
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "docs" / "guides" / "scheduling.md").read_text(encoding="utf-8")
-    blocks = BLOCK.findall(text)
-    assert len(blocks) == text.count("```") // 2
-    for kind, content in blocks:
-        execute(kind, content)
+    follow("scheduling")
     assert {file.name for file in (tmp_path / "rescue").iterdir()} == {"schedule.json", "map.png", "gantt.png"}

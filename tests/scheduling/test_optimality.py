@@ -9,6 +9,7 @@ pytest.importorskip("highspy")
 from formicarium.scheduling.checker import check
 from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
+from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.model import solve_model
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.schedule import travel_cost
@@ -82,3 +83,12 @@ def test_five_hundred_instances(part):
         reach = (Reach.PRINTED, Reach.INSCRIBED)[seed % 2]
         same_time(seed, reach, 6)
         same_travel(seed, reach, 4)
+
+
+@pytest.mark.parametrize("number", [6, 8])
+def test_a_hundred_tasks_end_in_time(number):
+    """Seconds of the processor: no part of the search may be begun that does not look at the clock again in time."""
+    instance = draw_instance(number, 0.05, 900001)
+    answer = solve(instance, "time", "printed", 2.0, processor_time=True)
+    assert answer.schedule is not None and answer.bound <= answer.value
+    assert answer.seconds < 4.0

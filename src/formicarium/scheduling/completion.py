@@ -16,7 +16,7 @@ from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
 from formicarium.scheduling.precedence import longest_chain
 from formicarium.scheduling.problem import Problem
 
-MOST_SETS = 1_000_000  # of an enumeration
+MOST_ENTRIES = 20_000_000  # of an enumeration: sets times tasks
 SHARE = 0.5  # of the time that is left, for all layers together
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 
@@ -108,13 +108,13 @@ class Search:
     def _enumerate(self, cover: Cover, layers: list[Layer]) -> None:
         """Choose among all sets whose reduced cost allows a better schedule: then the choice is the proof."""
         problem, gap = self.problem, self.best.value - 1 - cover.bound
-        paid = np.cumsum(cover.layer_gains)
+        paid, most = np.cumsum(cover.layer_gains), MOST_ENTRIES // problem.size
         sets: list[Set] = []
         for layer, price in zip(layers, paid):
             allowed = problem.ticks <= layer.ticks
             worth = layer.ticks - price - gap - 1e-6
-            found = sets_below(problem, self.places, cover.gains, worth, layer.ticks, allowed, MOST_SETS)
-            if found is None or len(sets) + len(found) > MOST_SETS:
+            found = sets_below(problem, self.places, cover.gains, worth, layer.ticks, allowed, most)
+            if found is None or len(sets) + len(found) > most:
                 return
             sets += found
             self.clock.check()

@@ -16,6 +16,7 @@ from formicarium.scheduling.problem import Problem
 
 EPSILON = 1e-7
 FEW_BOXES, MORE, MOST_BOXES = 300, 30, 8_100_000  # of a first look for better sets; next time; of a proof of none
+BOXES_A_SECOND = 300_000  # at least: a look that could take longer than there is time is not begun
 
 Set = tuple[int, ...]  # tasks, sorted
 
@@ -104,9 +105,10 @@ class Covering:
                         self.sets[whole_set] = None
                         put(whole_set, level)
                         found += 1
-                if found or exact or boxes >= MOST_BOXES or self.clock.seconds > until:
-                    break
                 boxes *= MORE
+                most = min(MOST_BOXES, BOXES_A_SECOND * (until - self.clock.seconds))
+                if found or exact or boxes > most:
+                    break
             if value / worst > least or exact:
                 least = max(least, value / worst)
                 used = {

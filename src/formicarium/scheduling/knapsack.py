@@ -73,7 +73,8 @@ def fill(gains, weights, limits, count, goal, multipliers, order, keys, above, l
         chosen: (T,) bool; set to the best set if one is above ``goal``.
 
     Returns:
-        (value, bound): of the best set, ``goal`` if there is none above it; and what no set exceeds.
+        (value, bound, nodes): of the best set, ``goal`` if there is none above it; what no set exceeds; and the nodes
+        that were looked at.
     """
     rows = len(limits)
     for task in range(count):
@@ -96,7 +97,7 @@ def fill(gains, weights, limits, count, goal, multipliers, order, keys, above, l
     while True:
         nodes += 1
         if nodes > MOST_NODES:
-            return best, max(root, best)
+            return best, max(root, best), nodes
         bound = value + fixed + above[place]
         if bound > best + EPSILON and place < count:
             task = order[place]
@@ -124,7 +125,7 @@ def fill(gains, weights, limits, count, goal, multipliers, order, keys, above, l
         while place >= 0 and not taken[place]:
             place -= 1
         if place < 0:
-            return best, best
+            return best, best, nodes
         task = order[place]
         taken[place] = False
         value -= gains[task]

@@ -15,6 +15,7 @@ from formicarium.scheduling.problem import Problem
 from formicarium.scheduling.reach import EUCLID, apart, distance, relays
 
 DEPTH = 100_000  # boxes that wait
+NODES_A_BOX = 1_000  # of a knapsack take as long as a box: a call ends in time, however hard its knapsacks are
 MOST_SETS = 64  # handed back by one call, the best ones last
 SMALLEST = 1e-9  # of the spacing
 EPSILON = 1e-9
@@ -50,7 +51,7 @@ class Prices:
             gains: (T,) of the tasks.
             allowed: (T,) bool.
             worth: of no interest at or below.
-            boxes: to look at, at most; if they are used up the bound is weaker.
+            boxes: to look at, at most, or as long in their knapsacks; if they are used up the bound is weaker.
         """
         problem = self.problem
         tasks = np.flatnonzero(allowed & (gains > 1e-12))
@@ -116,7 +117,10 @@ def search(
         least = move_multipliers(some, weights, limits, kept, best + EPSILON, multipliers, slopes, best_row)
         if least <= best + EPSILON:
             continue
-        value, most = fill(some, weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen)
+        value, most, nodes = fill(
+            some, weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen
+        )
+        budget -= nodes // NODES_A_BOX
         if most <= best + EPSILON:
             continue
         if value > best + EPSILON:
@@ -137,7 +141,10 @@ def search(
         kept = weigh(
             x, y, x, y, gains, places, demands, limits, spacing, paths, reach, some, middle_weights, items, hops
         )
-        here, _ = fill(some, middle_weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen)
+        here, _, nodes = fill(
+            some, middle_weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen
+        )
+        budget -= nodes // NODES_A_BOX
         if here > best + EPSILON:
             found, best = keep(sets, found, count, kept, items, chosen), here
         if max(x1 - x0, y1 - y0) <= SMALLEST * spacing or most <= best + EPSILON:
