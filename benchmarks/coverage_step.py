@@ -1,4 +1,4 @@
-"""Microseconds per robot-step of coverage trials with 101 robots, everything on, one core; means over 900 s of robot time.
+"""Microseconds per robot-step of coverage trials with 101 robots, one core, everything on; means over 900 s.
 
     python benchmarks/coverage_step.py
 
