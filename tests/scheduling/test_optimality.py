@@ -6,6 +6,7 @@ from scheduling.small import small_instance
 
 pytest.importorskip("highspy")
 
+from formicarium.scheduling import heldkarp, travel
 from formicarium.scheduling.checker import check
 from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
@@ -51,6 +52,19 @@ def test_least_time_is_that_of_all_schedules(seed, reach):
 @pytest.mark.parametrize("reach", [Reach.PRINTED, Reach.INSCRIBED])
 def test_least_travel_is_that_of_all_schedules(seed, reach):
     same_travel(seed, reach, 4)
+
+
+@pytest.mark.parametrize("seed", range(400, 416))
+def test_dynamic_programmes_alone_prove_the_same(seed, monkeypatch):
+    """Without the bound of gathering boxes before them and branch and bound behind them."""
+    monkeypatch.setattr(travel, "gathering_bound", lambda *_: 0.0)
+    monkeypatch.setattr(travel, "Branching", None)
+    same_travel(seed, (Reach.PRINTED, Reach.INSCRIBED)[seed % 2], 4)
+
+
+def test_a_programme_without_room_says_so_and_the_search_goes_on(monkeypatch):
+    monkeypatch.setattr(heldkarp, "MOST_BYTES", 4 * 16**2 * 3)  # three states of the coarse programme
+    same_travel(101, Reach.PRINTED, 4)
 
 
 @pytest.mark.parametrize("seed", range(200, 204))

@@ -5,13 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from formicarium.scheduling.clock import Clock
+from formicarium.scheduling.descent import CAREFUL, Descent, Incumbent
 from formicarium.scheduling.families import Family
 from formicarium.scheduling.insertion import Insertions
-from formicarium.scheduling.itinerary import Itineraries, Itinerary
+from formicarium.scheduling.itinerary import Itineraries
 from formicarium.scheduling.lattice import NEVER
 from formicarium.scheduling.problem import Problem
-
-CAREFUL = 1e-6  # relative: lattices count in 32 bits
 
 
 class Node(NamedTuple):
@@ -23,32 +22,12 @@ class Node(NamedTuple):
     outside: float  # what the arms to the tasks that are in no set yet cost at least
 
 
-class Incumbent:
-    """The best tour so far."""
-
-    def __init__(self, slots: list[tuple[int, ...]], way: Itinerary, gap: float):
-        """Begin with a schedule; ``gap`` is the relative distance that counts as none."""
-        self.slots, self.way, self.gap = slots, way, gap
-
-    @property
-    def goal(self) -> float:
-        """What a schedule must cost less than to be better by more than the gap."""
-        return self.way.cost - max(1e-7, self.gap * self.way.cost)
-
-    def offer(self, slots: list[tuple[int, ...]], way: Itinerary | None) -> bool:
-        """Take over a cheaper tour and tell whether it was."""
-        if way is None or way.cost >= self.way.cost - 1e-9:
-            return False
-        self.slots, self.way = slots, way
-        return True
-
-
-class Branching:
-    """The search; can be stopped at any moment with a valid bound."""
+class Branching(Descent[Node]):
+    """The search."""
 
     def __init__(
-        self, problem: Problem, family: Family, insertions: Insertions, incumbent: Incumbent, ticks: int,
-        charge_first: bool, related: np.ndarray, ways: Itineraries, clock: Clock,
+        self, problem: Problem, family: Family, insertions: Insertions, incumbent: Incumbent, bound: float,
+        ticks: int, charge_first: bool, related: np.ndarray, ways: Itineraries, clock: Clock,
     ):  # fmt: skip
         """Prepare.
 
@@ -57,46 +36,26 @@ class Branching:
             family: its possible sets.
             insertions: its lower bounds.
             incumbent: best tour so far, improved as the search goes on.
+            bound: of all schedules.
             ticks: that a schedule may take.
             charge_first: whether the way from the start counts; if not, a tour may be turned round.
             related: (T, T) bool: before.
             ways: for bounds of a tour and the cost of a whole one.
             clock: of the whole work.
         """
-        self.problem, self.family, self.insertions, self.incumbent = problem, family, insertions, incumbent
-        self.ticks, self.ways, self.clock = ticks, ways, clock
+        super().__init__(incumbent, bound, clock)
+        self.problem, self.family, self.insertions, self.ticks, self.ways = problem, family, insertions, ticks, ways
         self._after = [sum(1 << int(t) for t in np.flatnonzero(row)) for row in related]
         self._mirrored = not charge_first and not related.any()
         self._everything = (1 << problem.size) - 1
-        self.bound = 0.0
-        self._open: list[list[Node]] = []
 
-    def run(self) -> None:
-        """Search to the end, or raise OutOfTime or KeyboardInterrupt; ``bound`` holds at any moment."""
-        root = Node(self.bound, (), self.family.leaving_time(0, self.ticks), 0.0)
-        self._open = [[root]]
-        while self._open:
-            if not self._open[-1]:
-                self._open.pop()
-                continue
-            node = self._open[-1][-1]
-            self._note()
-            self.clock.check()
-            if node.bound >= self.incumbent.goal:
-                self._open[-1].clear()  # sorted: the others are no better
-                continue
-            children = self._children(node)
-            self._open[-1].pop()
-            self._open.append(children)
-        self.bound = max(self.bound, self.incumbent.goal)
-
-    def _note(self) -> None:
-        least = min((node.bound for level in self._open for node in level[-1:]), default=0.0)
-        self.bound = max(self.bound, min(least * (1 - CAREFUL), self.incumbent.goal))
-        self.clock.tell("tours", self.bound, self.incumbent.way.cost)
+    @property
+    def root(self) -> Node:
+        """All schedules that take no longer."""
+        return Node(self.bound, (), self.family.leaving_time(0, self.ticks), 0.0)
 
     def _children(self, node: Node) -> list[Node]:
-        """Return what a node falls into, the most promising last; nothing if it is done or hopeless."""
+        """Return what a node falls into: its open task in every set at every place."""
         covered = sum(node.tour)
         left = self._everything & ~covered
         if len(node.tour) > 1:
@@ -130,7 +89,6 @@ class Branching:
                     further = self._further(sets, covered | mask, spent + self._length(mask))
                 grown = (*node.tour[:place], mask, *node.tour[place:])
                 children.append(Node(max(node.bound, floor, float(bounds[number, place])), grown, further, outside))
-        children.sort(key=lambda child: -child.bound)
         return children
 
     def _further(self, sets: np.ndarray, covered: int, spent: int) -> np.ndarray:

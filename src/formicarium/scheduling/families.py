@@ -49,6 +49,11 @@ class Family:
             place += len(some)
             self._starts[task + 1] = place
 
+    @property
+    def tables(self) -> tuple[np.ndarray, ...]:
+        """What ``can_cover`` looks up and keeps."""
+        return self._starts, self._holding, self._fails, self._known, self.possible
+
     def leaving_time(self, covered: int, ticks: int) -> np.ndarray:
         """Return the sets, none with a task of ``covered``, after which the rest can be done in the ticks left."""
         return self.in_time(self.sets[self.sets & covered == 0], covered, ticks)

@@ -72,24 +72,20 @@ def spread(cost, side, step_x, step_y, free, out, line):
         out: (cells,) result.
         line: (side,) memory to work in.
     """
-    for j in range(side):
-        ahead = NEVER
-        for i in range(side):
-            if free == 0 or i == 0:
-                ahead = min(ahead + step_x, cost[i * side + j])
-                out[i * side + j] = ahead if free == 0 else cost[i * side + j]
-                if free and i == 0:
-                    ahead = NEVER
-            else:
-                ahead = min(ahead + step_x, cost[(i - 1) * side + j])
-                out[i * side + j] = min(ahead, cost[i * side + j])
-        ahead = NEVER
-        for i in range(side - 1, -1, -1):
-            if free == 0:
-                ahead = min(ahead + step_x, cost[i * side + j])
-            elif i < side - 1:
-                ahead = min(ahead + step_x, cost[(i + 1) * side + j])
-            out[i * side + j] = min(out[i * side + j], ahead)
+    # along x, all columns of cells at once: line[j] is what it costs to come from one side
+    for backwards in range(2):
+        for j in range(side):
+            line[j] = NEVER
+        for k in range(side):
+            i = side - 1 - k if backwards else k
+            before = i + 1 if backwards else i - 1
+            if free == 0 or k > 0:
+                source = before if free else i
+                for j in range(side):
+                    line[j] = min(line[j] + step_x, cost[source * side + j])
+            for j in range(side):
+                here = out[i * side + j] if backwards else cost[i * side + j]
+                out[i * side + j] = min(line[j], here)
     for i in range(side):
         for j in range(side):
             line[j] = out[i * side + j]
@@ -107,6 +103,20 @@ def spread(cost, side, step_x, step_y, free, out, line):
             elif j < side - 1:
                 ahead = min(ahead + step_y, line[j + 1])
             out[i * side + j] = min(out[i * side + j], ahead)
+
+
+@compiled
+def pool(cost, side, share, out):
+    """Fill ``out`` with the least cost in each square of ``share`` times ``share`` cells."""
+    for cell in range(len(out)):
+        out[cell] = NEVER
+    few = side // share
+    for i in range(side):
+        for k in range(few):
+            least = out[i // share * few + k]
+            for j in range(k * share, (k + 1) * share):
+                least = min(least, cost[i * side + j])
+            out[i // share * few + k] = least
 
 
 @compiled

@@ -1,22 +1,27 @@
 """Total Dislocation Space Minimisation (TDSM), (14): the shortest tour among the schedules of a completion time."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from formicarium.scheduling.annealing import anneal
-from formicarium.scheduling.branching import Branching, Incumbent
+from formicarium.scheduling.branching import Branching
 from formicarium.scheduling.clock import Clock, OutOfTime
 from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.descent import CAREFUL, Descent, Incumbent
 from formicarium.scheduling.families import MOST_TASKS, Family
 from formicarium.scheduling.gathering import gathering_bound
+from formicarium.scheduling.growing import Growing
+from formicarium.scheduling.heldkarp import MOST_SETS, HeldKarp, Steps
 from formicarium.scheduling.insertion import Insertions
 from formicarium.scheduling.itinerary import Itineraries, Itinerary
 from formicarium.scheduling.lattice import lattice_of
 from formicarium.scheduling.precedence import closure
 from formicarium.scheduling.problem import Problem
 
-COARSE, FINE = 32, 64  # cells along each side: of the first tours, of the bounds
+COARSE, FINE, FINER, FINEST = 16, 32, 64, 128  # cells along each side
+STRIDE = 0.5  # of the way from the bound to the best tour: the next target
+NEAR = 0.9  # of the best tour: from there on the bound is raised in one go
 ROUNDS, TRIES = 6, 4000  # of annealing; it costs about a second
 MOST_ANNEALED = 62  # tasks
 
@@ -107,21 +112,54 @@ class Search:
         if problem.size > MOST_TASKS or self.bound >= incumbent.goal:
             return
         related = closure(problem)
-        both = related | related.T
-        forbidden = np.array([sum(1 << int(t) for t in np.flatnonzero(row)) for row in both], np.int64)
-        lattice = lattice_of(problem, FINE, self.charge_first, optimistic=True)
-        family = Family(problem, lattice.hops, forbidden)
+        lattice = lattice_of(problem, FINER, self.charge_first, optimistic=True)
+        family = Family(problem, lattice.hops, _bits(related | related.T))
         clock.check()
         if not family.complete:
             return
-        branching = Branching(problem, family, Insertions(problem, lattice), incumbent, self.ticks, self.charge_first,
-                              related, ways, clock)  # fmt: skip
-        branching.bound = self.bound
+        sets = family.leaving_time(0, self.ticks)
+        if len(sets) <= MOST_SETS:
+            self._grow(family, sets, related, ways, clock)
+            incumbent.target = float("inf")
+        if self.bound < incumbent.goal:
+            branching = Branching(problem, family, Insertions(problem, lattice), incumbent, self.bound, self.ticks,
+                                  self.charge_first, related, ways, clock)  # fmt: skip
+            self._descend(branching, branching.root)
+
+    def _grow(self, family: Family, sets: np.ndarray, related: np.ndarray, ways: Itineraries, clock: Clock) -> None:
+        """Search tours from one end to the other, below one target after the other until one is met."""
+        problem, incumbent = self.problem, self.incumbent
+        coarse = self._programme(family, sets, related, COARSE, from_end=True)
+        if not coarse.run(incumbent.goal * (1 + CAREFUL), None, clock):
+            return
+        self._raise(min(coarse.least * (1 - CAREFUL), incumbent.goal), "programme", clock)
+        mirrored = not self.charge_first and not related.any()
+        finest = lattice_of(problem, FINEST, self.charge_first, optimistic=True)
+        while True:
+            incumbent.target = float("inf")
+            if self.bound >= incumbent.goal:
+                return
+            if self.bound < NEAR * incumbent.goal:
+                incumbent.target = self.bound + STRIDE * (incumbent.goal - self.bound)
+            programme = self._programme(family, sets, related, FINE, from_end=False)
+            if not programme.run(incumbent.goal * (1 + CAREFUL), coarse, clock):
+                return
+            self._raise(min(programme.least * (1 - CAREFUL), incumbent.goal), "programme", clock)
+            growing = Growing(problem, programme, finest, False, mirrored, incumbent, self.bound, ways, clock)
+            self._descend(growing, growing.root)
+
+    def _programme(self, family: Family, sets: np.ndarray, related: np.ndarray, side: int, from_end: bool) -> HeldKarp:
+        lattice = lattice_of(self.problem, side, self.charge_first, optimistic=True)
+        steps = Steps(self.problem, lattice, sets, _bits(related if from_end else related.T))
+        first = np.zeros_like(lattice.first) if from_end else lattice.first
+        return HeldKarp(self.problem, family, steps, self.ticks, first)
+
+    def _descend(self, descent: Descent, root: Any) -> None:
         try:
-            branching.run()
+            descent.run(root)
         finally:
-            if branching.bound > self.bound:
-                self.bound, self.proof = branching.bound, "tours"
+            if descent.bound > self.bound:
+                self.bound, self.proof = descent.bound, "tours"
 
     def _raise(self, bound: float, proof: str, clock: Clock) -> None:
         if bound > self.bound:
@@ -133,13 +171,18 @@ class Search:
         problem = self.problem
         if problem.size > MOST_ANNEALED or len(problem.before):
             return
-        lattice = lattice_of(problem, COARSE, self.charge_first, optimistic=False)
+        lattice = lattice_of(problem, FINE, self.charge_first, optimistic=False)
         for number in range(ROUNDS):
             slots = anneal(problem, lattice, self.incumbent.slots, self.ticks, TRIES, number)
             if slots != self.incumbent.slots:
                 self.incumbent.offer(slots, ways.cheapest(slots, self.incumbent.way.cost))
             clock.tell("annealing", self.bound, self.incumbent.way.cost)
             clock.check()
+
+
+def _bits(related: np.ndarray) -> np.ndarray:
+    """Return the rows of a table of yes and no as bits of whole numbers."""
+    return np.array([sum(1 << int(t) for t in np.flatnonzero(row)) for row in related], np.int64)
 
 
 def _as_deployed(problem: Problem, slots: list[tuple[int, ...]], charge_first: bool) -> Itinerary:
