@@ -56,12 +56,17 @@ class Descent(Generic[Node]):
         self.incumbent, self.bound, self.clock = incumbent, bound, clock
         self._open: list[list[Node]] = []
 
-    def run(self, root: Node, most: float = float("inf")) -> None:
+    @property
+    def root(self) -> Node:
+        """All schedules."""
+        raise NotImplementedError
+
+    def run(self, most: float = float("inf")) -> None:
         """Search to the end or through so many nodes, or raise OutOfTime or KeyboardInterrupt.
 
         ``bound`` holds at any moment.
         """
-        self._open = [[root]]
+        self._open = [[self.root]]
         while self._open and most > 0:
             if not self._open[-1]:
                 self._open.pop()

@@ -20,6 +20,8 @@ from formicarium.scheduling.precedence import closure
 from formicarium.scheduling.problem import Problem
 
 COARSE, FINE, FINER, FINEST = 16, 32, 64, 128  # cells along each side
+GRAIN = 4  # times as many have those on which a tour grows
+LOOK = 2000  # nodes of a search before another method may take over
 STRIDE = 0.5  # of the way from the bound to the best tour: the next target
 NEAR = 0.9  # of the best tour: from there on the bound is raised in one go
 ROUNDS, TRIES = 6, 4000  # of annealing; it costs about a second
@@ -117,36 +119,52 @@ class Search:
         clock.check()
         if not family.complete:
             return
-        sets = family.leaving_time(0, self.ticks)
-        if len(sets) <= MOST_SETS:
+        branching = Branching(problem, family, Insertions(problem, lattice), incumbent, self.bound, self.ticks,
+                              self.charge_first, related, ways, clock)  # fmt: skip
+        self._descend(branching, LOOK)
+        sets = branching.root.sets
+        if self.bound < incumbent.goal and len(sets) <= MOST_SETS:
             self._grow(family, sets, related, ways, clock)
             incumbent.target = float("inf")
         if self.bound < incumbent.goal:
-            branching = Branching(problem, family, Insertions(problem, lattice), incumbent, self.bound, self.ticks,
-                                  self.charge_first, related, ways, clock)  # fmt: skip
-            self._descend(branching, branching.root)
+            self._descend(branching)
 
     def _grow(self, family: Family, sets: np.ndarray, related: np.ndarray, ways: Itineraries, clock: Clock) -> None:
         """Search tours from one end to the other, below one target after the other until one is met."""
-        problem, incumbent = self.problem, self.incumbent
+        incumbent = self.incumbent
         coarse = self._programme(family, sets, related, COARSE, from_end=True)
         if not coarse.run(incumbent.goal * (1 + CAREFUL), None, clock):
             return
         self._raise(min(coarse.least * (1 - CAREFUL), incumbent.goal), "programme", clock)
-        mirrored = not self.charge_first and not related.any()
-        finest = lattice_of(problem, FINEST, self.charge_first, optimistic=True)
-        while True:
-            incumbent.target = float("inf")
-            if self.bound >= incumbent.goal:
-                return
+        while self.bound < incumbent.goal:
             if self.bound < NEAR * incumbent.goal:
                 incumbent.target = self.bound + STRIDE * (incumbent.goal - self.bound)
-            programme = self._programme(family, sets, related, FINE, from_end=False)
-            if not programme.run(incumbent.goal * (1 + CAREFUL), coarse, clock):
+            if not self._reach_target(coarse, family, sets, related, ways, clock):
                 return
+            incumbent.target = float("inf")
+
+    def _reach_target(
+        self, coarse: HeldKarp, family: Family, sets: np.ndarray, related: np.ndarray, ways: Itineraries, clock: Clock
+    ) -> bool:
+        """Find what is cheaper than the target or prove that nothing is; tell whether there was room for that."""
+        problem, incumbent, ahead = self.problem, self.incumbent, coarse
+        mirrored = not self.charge_first and not related.any()
+        growing, from_end = None, False
+        for side in (FINE, FINER, FINEST):
+            programme = self._programme(family, sets, related, side, from_end)
+            if not programme.run(incumbent.goal * (1 + CAREFUL), ahead, clock):
+                break
             self._raise(min(programme.least * (1 - CAREFUL), incumbent.goal), "programme", clock)
-            growing = Growing(problem, programme, finest, False, mirrored, incumbent, self.bound, ways, clock)
-            self._descend(growing, growing.root)
+            grain = lattice_of(problem, min(GRAIN * side, 2 * FINEST), self.charge_first, optimistic=True)
+            growing = Growing(problem, programme, grain, from_end, mirrored, incumbent, self.bound, ways, clock)
+            self._descend(growing, LOOK if side < FINEST else float("inf"))
+            if self.bound >= incumbent.goal:
+                return True
+            ahead, from_end = programme, not from_end
+        if growing is None:
+            return False
+        self._descend(growing)
+        return True
 
     def _programme(self, family: Family, sets: np.ndarray, related: np.ndarray, side: int, from_end: bool) -> HeldKarp:
         lattice = lattice_of(self.problem, side, self.charge_first, optimistic=True)
@@ -154,9 +172,9 @@ class Search:
         first = np.zeros_like(lattice.first) if from_end else lattice.first
         return HeldKarp(self.problem, family, steps, self.ticks, first)
 
-    def _descend(self, descent: Descent, root: Any) -> None:
+    def _descend(self, descent: Descent[Any], most: float = float("inf")) -> None:
         try:
-            descent.run(root)
+            descent.run(most)
         finally:
             if descent.bound > self.bound:
                 self.bound, self.proof = descent.bound, "tours"
