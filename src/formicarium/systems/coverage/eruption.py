@@ -7,6 +7,7 @@ from formicarium.compiled import compiled
 from formicarium.control.bearings import carried_over, carried_over_printed
 from formicarium.systems.coverage.arms import chance
 from formicarium.systems.coverage.forces import clear, press, wish
+from formicarium.systems.coverage.listening import slot_of
 from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
@@ -29,7 +30,7 @@ def find_reference(reading, memory):
         packet = reading.packets[k]
         if packet.linked == 0 or packet.named == 0 or packet.arm_count == 0:
             continue
-        if packet.arms[0].known == 0:
+        if packet.arms[0].known == 0 or slot_of(packet.epoch) != slot_of(memory.epoch):
             continue
         if packet.hops == 0:
             best = k
@@ -74,9 +75,8 @@ def erupt(reading, memory, command, table, chart, footbot):
     """
     if memory.reference_place >= 0 and memory.arm > 0:
         note_alignment(memory, table)
-    in_place = memory.aligned == 1 or reading.beacon == memory.arm or memory.stage == Stage.HOLDING
     stops = chart.stop == 1 or memory.mode == Mode.HOLD
-    if stops and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and in_place:
+    if stops and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and is_in_place(reading, memory):
         memory.stage = Stage.HOLDING
         clear(command)
     elif memory.reference_place >= 0 and memory.arm > 0:
@@ -91,6 +91,13 @@ def erupt(reading, memory, command, table, chart, footbot):
         press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
     else:
         be_lost(reading, memory, command, table, footbot)
+
+
+@compiled
+def is_in_place(reading, memory):
+    """Tell whether one stands in line or at the arm's task, or has held already; one has an arm."""
+    at_task = reading.beacon == memory.arms[memory.arm - 1].task
+    return memory.aligned == 1 or at_task or memory.stage == Stage.HOLDING
 
 
 @compiled

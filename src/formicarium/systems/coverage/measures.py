@@ -231,6 +231,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     cycle_time = float(state.world.settings[0].cycle_time)
     cycles = max(1, int(state.clock[0].cycle))
     survey = state.survey[0]
+    chart = state.charts[survey.master]
+    last_slot = chart.slots[int(chart.slot_count) - 1]
     row: dict[str, int | float | str | None] = {"duration_s": round(cycles * cycle_time, 6)}
     for graph in Graph:
         c = state.connections[graph]
@@ -259,7 +261,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "died": int((events["kind"] == EventKind.DIED).sum()),
         "done": int(state.clock[0].finished),
         "held_s": round(int(state.memories[survey.master].held) * cycle_time, 6),
-        "held": int(state.memories[survey.master].held >= max(1, state.charts[survey.master].hold_cycles)),
+        "held": int(state.memories[survey.master].held >= max(1, last_slot.hold_cycles)),
     }
     for mode, name in ((Mode.ERUPT, "erupt"), (Mode.HOLD, "hold"), (Mode.GATHER, "gather")):
         calls = events[(events["kind"] == EventKind.PHASE) & (events["subject"] == mode)]

@@ -12,9 +12,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from formicarium.robots.footbot import ARMS, LABORATORY_2018, NOTEBOOK_2018, PACKETS, Footbot
+from formicarium.systems.coverage.mission import MissionTable, check_mission
 from formicarium.tables import Table, number
 
-PROGRAMMES = ("erupt", "tour")
+PROGRAMMES = ("erupt", "tour", "mission")
 VARIANTS = ("faithful", "buzz", "safe")
 FORCES = ("corrected", "printed", "smooth")
 CHOICES = ("draw", "quota", "blocks")
@@ -39,8 +40,11 @@ class SwarmTable(Table):
 class TaskTable(Table):
     """Where the tasks are and what the master does about them."""
 
-    programme: Literal["erupt", "tour"] = number(
-        "erupt", "1", "erupt: from the first step to the end [files]; tour: flock, erupt, hold, gather [paper III-C]"
+    programme: Literal["erupt", "tour", "mission"] = number(
+        "erupt",
+        "1",
+        "erupt: from the first step to the end [files]; tour: flock, erupt, hold, gather [paper III-C]; mission: the "
+        "same for each slot of a plan [ST-48]",
     )
     pattern: Literal["star", "random"] = number("star", "1", "star: regular; random: uniform in a square [notebook]")
     count: int = number(1, "1", "T, tasks, an arm each [paper]", ge=1, le=ARMS)
@@ -51,8 +55,10 @@ class TaskTable(Table):
     travel_direction: float = number(0.0, "rad", "tour: in this direction, in the master's frame [choice]")
     stop: bool = number(True, "1", "arms stop at their tasks [choice ST-43]; off: they stretch on [files]")
     hold_time: float = number(20.0, "s", "tour: tasks are held for so long, all at once [choice]", ge=0)
-    erupt_limit: float = number(600.0, "s", "tour: then arms that have reached their tasks hold them [choice]", gt=0)
-    gather_limit: float = number(120.0, "s", "tour: a rendez-vous ends by then [choice ST-31]", gt=0)
+    erupt_limit: float = number(
+        600.0, "s", "then arms that have reached their tasks hold them, in a tour or mission [choice]", gt=0
+    )
+    gather_limit: float = number(120.0, "s", "a rendez-vous ends by then, in a tour or mission [choice ST-31]", gt=0)
 
 
 class BehaviourTable(Table):
@@ -159,6 +165,7 @@ class CoverageParameters(BaseModel):
 
     swarm: SwarmTable = Field(default_factory=SwarmTable)
     tasks: TaskTable = Field(default_factory=TaskTable)
+    mission: MissionTable = Field(default_factory=MissionTable)
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
@@ -171,6 +178,12 @@ class CoverageParameters(BaseModel):
                 f"behaviour.spacing = {self.behaviour.spacing:g} m is more than footbot.radio_range = "
                 f"{self.footbot.radio_range:g} m: nobody would hear anybody. Make spacing smaller or radio_range larger"
             )
+        return self
+
+    @model_validator(mode="after")
+    def mission_fits(self) -> "CoverageParameters":
+        """Refuse a plan that cannot be flown."""
+        check_mission(self.mission, self.tasks.programme, self.swarm.robots)
         return self
 
 

@@ -174,17 +174,28 @@ def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.
         if robot.key != 0:
             continue
         chart.programme = PROGRAMMES.index(t.programme)
-        chart.task_count = t.count
-        for k, beacon in enumerate(arena.beacons):
-            chart.task_ahead[k], chart.task_aside[k] = beacon.x, beacon.y
-            chart.wanted[k] = math.hypot(beacon.x - arena.point[0], beacon.y - arena.point[1])
-        chart.point_ahead, chart.point_aside = arena.point
-        chart.travel = int(t.programme == "tour" and t.travel > 0.0)
-        chart.hold_cycles = round(t.hold_time / cycle_time)
+        chart.slot_count = len(arena.sites)
+        for number in range(len(arena.sites)):
+            write_slot(chart.slots[number], p, arena, number)
         chart.erupt_cycles = round(t.erupt_limit / cycle_time)
         chart.gather_cycles = round(t.gather_limit / cycle_time)
         chart.correction_limit = round(p.behaviour.correction_limit / cycle_time)
     return charts
+
+
+def write_slot(slot: np.record, p: CoverageParameters, arena: Arena, number: int) -> None:
+    """Write what the master is told of one slot; without a plan arms are wanted by the distances of their tasks."""
+    site, t = arena.sites[number], p.tasks
+    planned = p.mission.slots[number] if p.mission.slots else None
+    slot.point_ahead, slot.point_aside = site.point
+    slot.travel = int(planned is not None or (t.programme == "tour" and t.travel > 0.0))
+    slot.task_count = len(site.tasks)
+    for k, beacon in enumerate(arena.beacons[site.tasks.start : site.tasks.stop]):
+        slot.task[k], slot.task_ahead[k], slot.task_aside[k] = beacon.task, beacon.x, beacon.y
+        distance = math.hypot(beacon.x - site.point[0], beacon.y - site.point[1])
+        slot.wanted[k] = planned.tasks[k].robots if planned else distance
+    slot.hold_cycles = round((planned.duration if planned else t.hold_time) / p.swarm.cycle_time)
+    slot.hold_limit = round(t.erupt_limit / p.swarm.cycle_time) + (slot.hold_cycles if planned else 0)
 
 
 def make_connections() -> np.recarray:
@@ -197,11 +208,12 @@ def make_connections() -> np.recarray:
 def make_axes(arena: Arena) -> np.recarray:
     """Return the arms' axes, from the point of deployment through the tasks, with Table I's distances as targets."""
     axes = records(AXIS, len(arena.beacons))
-    for axis, beacon in zip(axes, arena.beacons, strict=True):
-        dx, dy = beacon.x - arena.point[0], beacon.y - arena.point[1]
+    points = [site.point for site in arena.sites for _ in site.tasks]
+    for axis, beacon, point in zip(axes, arena.beacons, points, strict=True):
+        dx, dy = beacon.x - point[0], beacon.y - point[1]
         length = math.hypot(dx, dy)
-        axis.x, axis.y = arena.point
-        axis.cosine, axis.sine = dx / length, dy / length
+        axis.x, axis.y = point
+        axis.cosine, axis.sine = (dx / length, dy / length) if length > 0.0 else (1.0, 0.0)
         axis.target[:] = (*TABLE_TARGETS, length)[:TARGETS]
         axis.since[:] = axis.first[:] = -1
         axis.longest_at = -1

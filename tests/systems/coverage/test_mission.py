@@ -1,0 +1,120 @@
+"""Missions of several slots in one piece: order, forgetting, no jumps, and the tasks that a message speaks of."""
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from formicarium.systems.coverage.listening import slot_of
+from formicarium.systems.coverage.memory import Mode
+from formicarium.systems.coverage.parameters import coverage_parameters
+from systems.coverage.swarm import advance, stay, swarm
+
+SLOTS = (
+    {
+        "x": 1.5,
+        "y": 0.5,
+        "tasks": (
+            {"name": "well", "x": 4.0, "y": 2.0, "duration": 6.0, "robots": 3},
+            {"name": "gate", "x": -1.0, "y": 2.5, "duration": 3.0, "robots": 3},
+        ),
+    },
+    {"x": 0.0, "y": -1.0, "tasks": ({"name": "roof", "x": -3.0, "y": -3.0, "duration": 4.0, "robots": 4},)},
+)
+
+
+def mission(seed=1, robots=8, slots=SLOTS, **groups):
+    groups = {
+        "tasks": {"programme": "mission", "erupt_limit": 300.0, "gather_limit": 20.0},
+        "mission": {"slots": slots},
+        **groups,
+    }
+    return swarm(setting=0, robots=robots, seed=seed, **groups)
+
+
+def test_slots_follow_each_other_and_end():
+    state = mission()
+    phases = []
+    while not state.clock[0].finished and state.clock[0].cycle < 9000:
+        advance(state, 1)
+        now = (slot_of(int(state.memories[0].epoch)), int(state.memories[0].mode))
+        if not phases or phases[-1] != now:
+            phases.append(now)
+    one_slot = [Mode.FLOCK, Mode.ERUPT, Mode.HOLD, Mode.GATHER]
+    assert phases == [(slot, mode) for slot in (0, 1) for mode in one_slot]
+    assert state.clock[0].finished == 1 and (state.memories.epoch == 8).all()
+
+
+@pytest.mark.parametrize("variant", ["faithful", "safe"])
+def test_nobody_jumps_between_phases(variant):
+    """Trap 18: no body moves farther in a cycle than its speed allows, whatever phase begins or ends in it."""
+    state = mission(behaviour={"variant": variant, "arm_choice": "quota"})
+    longest, epochs = 0.0, set()
+    while not state.clock[0].finished and state.clock[0].cycle < 9000:
+        before = state.world.bodies.copy()
+        advance(state, 1)
+        moved = np.hypot(state.world.bodies.x - before.x, state.world.bodies.y - before.y)
+        longest = max(longest, float(moved.max()))
+        epochs |= set(state.memories.epoch.tolist())
+    assert epochs == set(range(9)) and 0.014 < longest <= 0.015 + 1e-9
+
+
+def test_arms_are_forgotten_with_their_slot_even_by_who_missed_its_end():
+    """A robot that was away from the eruption of slot one to that of slot two draws among the arms of slot two."""
+    state = mission()
+    while state.memories[0].mode != Mode.HOLD:
+        advance(state, 1)
+    assert (state.memories.arm[1:] > 0).all() and (state.memories[0].arms["task"][:2] == (1, 2)).all()
+    late = state.memories[7:8].copy()
+    while not (slot_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
+        advance(state, 1)
+    state.memories[7] = late[0]
+    stay(state, 5)
+    assert state.memories[7].epoch == state.memories[0].epoch
+    assert (state.memories.arm_count == 1).all() and (state.memories.arms["task"][:, 0] == 3).all()
+    assert state.memories[7].arm == 1
+
+
+def test_who_has_not_heard_of_the_new_slot_teaches_no_old_arms():
+    """The last one to hear still speaks of two arms; whoever has forgotten them takes nothing of it."""
+    state = mission()
+    while state.memories[0].mode != Mode.GATHER:
+        advance(state, 1)
+    while state.memories[0].mode == Mode.GATHER:
+        advance(state, 1)
+    for _ in range(10):
+        told = slot_of(1) != np.array([slot_of(int(epoch)) for epoch in state.memories.epoch])
+        assert (state.memories.arm_count[told] == 0).all() and (state.memories.arm[told] == 0).all()
+        advance(state, 1)
+    assert told.all()
+
+
+def test_a_beacon_of_another_slot_stops_nobody():
+    """Traps 15: arms have numbers in their slot, tasks in the mission; the beacon of task 1 is not that of arm 1."""
+    state = mission()
+    state.beacons.task[2] = 1
+    while not (slot_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
+        advance(state, 1)
+    advance(state, 600)
+    assert state.memories[0].mode == Mode.ERUPT and (state.memories.arms["reached"][:, 0] == 0).all()
+
+
+def test_a_task_costs_no_bytes_beside_whether_its_direction_is_known():
+    """What was 27 bytes an arm still is: 7 bits of number and one bit."""
+    one = advance(mission(slots=SLOTS[1:]), 1000).commands.message
+    assert (one["arms"]["task"][:, 0] == 1).all()
+    assert (one["bytes"] == 54 + 27 * one["arm_count"] + 9 * one["entry_count"]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"swarm": {"robots": 6}}, r"mission.slots\[0\] wants 6 robots in its arms, swarm.robots = 6 has 5"),
+        ({"tasks": {"programme": "tour"}}, "tasks.programme = 'tour': set it to 'mission'"),
+        ({"mission": {"slots": ()}}, "without mission.slots: give a map"),
+        ({"mission": {"slots": ({"x": 0.0, "y": 0.0, "tasks": ()},)}}, "mission.slots.0.tasks"),
+    ],
+)
+def test_a_plan_that_cannot_be_flown_is_refused_by_name(change, said):
+    groups = {"swarm": {"robots": 8}, "tasks": {"programme": "mission"}, "mission": {"slots": SLOTS}} | change
+    with pytest.raises(ValidationError, match=said):
+        coverage_parameters(0, **groups)
