@@ -12,7 +12,8 @@ from formicarium.physics.world import World, make_world
 from formicarium.robots.footbot import CHASSIS, COMMAND, IDENTITIES, READING
 from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
-from formicarium.systems.coverage.measures import SEEN, SURVEY, TASK_SEEN
+from formicarium.systems.coverage.credit import TASK_SEEN
+from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
 from formicarium.trial.events import CLOCK
@@ -101,7 +102,7 @@ def begin(
         connections=make_connections(),
         places=records(PLACE, count),
         axes=make_axes(arena),
-        tasks=records(TASK_SEEN, len(arena.beacons)),
+        tasks=make_tasks(p, len(arena.beacons)),
         survey=make_survey(p, crew.robots),
         seen=make_seen(count),
         laplacian=np.zeros((count, count)),
@@ -218,6 +219,15 @@ def make_axes(arena: Arena) -> np.recarray:
         axis.since[:] = axis.first[:] = -1
         axis.longest_at = -1
     return axes
+
+
+def make_tasks(p: CoverageParameters, count: int) -> np.recarray:
+    """Return the observers' sheets for the tasks, with the work that a plan wants."""
+    tasks = records(TASK_SEEN, count)
+    tasks.done_at = -1
+    for sheet, planned in zip(tasks, p.mission.tasks):
+        sheet.needed = max(1, round(planned.duration / p.swarm.cycle_time))
+    return tasks
 
 
 def make_survey(p: CoverageParameters, robots: np.recarray) -> np.recarray:

@@ -190,6 +190,8 @@ def tell(event: Any) -> str:
             return f"the task of arm {subject} is covered"
         case EventKind.UNCOVERED:
             return f"the task of arm {subject} is left after {value} cycles"
+        case EventKind.WORKED:
+            return f"task {subject} is done after {value} cycles of work"
         case EventKind.DIED:
             return f"robot {robot} dies"
         case _:

@@ -1,0 +1,116 @@
+"""A map becomes a mission: tasks and robots from a file, a plan from the solver, and the plan among the parameters."""
+
+from typing import Any
+
+from pydantic import BaseModel
+
+from formicarium.commands.errors import UserError
+from formicarium.commands.extras import require
+from formicarium.commands.fields import with_settings, with_values
+from formicarium.commands.known import parameters_of
+from formicarium.scheduling.instance import Instance
+from formicarium.scheduling.reading import read_instance
+from formicarium.systems.registry import System
+
+SLOT_TIME = 900.0  # s, that a trial lasts at most for each slot [choice]
+ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
+PLANNING_TIME = 60.0  # s, then the best plan so far is flown
+REACH = "inscribed"  # never farther than the circle; the paper's octagon plans arms that are too long (ST-54)
+
+
+def parameters_with_map(
+    system: System, setting: int | None, robots: int | None, settings: tuple[str, ...], file: str | None
+) -> BaseModel:
+    """Return the parameters of a trial; with a map, of a mission that is planned now.
+
+    The plan becomes part of the parameters, so a run is whole without the file. ``settings`` have the last word.
+
+    Raises:
+        UserError: if the system flies no missions, or a setting or the map cannot be used.
+        InstanceError: if the map cannot be scheduled; names file, task or field, and why.
+    """
+    if file is None:
+        return parameters_of(system, setting, robots, settings)
+    if "mission" not in system.parameters.model_fields:
+        raise UserError(f"--map {file}: {system.name} does no tasks of a map; formicarium run coverage does")
+    require("scheduling", "--map")
+    asked: Any = parameters_of(system, setting, None, settings)
+    instance = read_instance(file, robots, asked.mission.planning_range)
+    refuse_what_arms_cannot_do(instance, file)
+    planned = with_values(parameters_of(system, setting, None, ()), mission_values(instance, file))
+    return with_settings(planned, settings)
+
+
+def refuse_what_arms_cannot_do(instance: Instance, file: str) -> None:
+    """Refuse tasks that a schedule can hold and a swarm cannot do yet.
+
+    Raises:
+        UserError: naming file, task, field and value.
+    """
+    faults = [
+        f"{file}: task {task.name!r}: robots = {task.robots}: an arm brings one robot to its task; leave robots away"
+        for task in instance.tasks
+        if task.robots > 1
+    ]
+    faults += [
+        f"{file}: task {task.name!r}: needs = {sorted(task.needs)}: robots of a mission are all alike; leave needs away"
+        for task in instance.tasks
+        if task.needs
+    ]
+    if faults:
+        raise UserError("\n".join(faults))
+
+
+def mission_values(instance: Instance, file: str) -> dict[str, Any]:
+    """Plan a mission and return it as parameters by dotted path; places are relative to the start.
+
+    Raises:
+        UserError: if the plan has more arms or slots than the swarm's messages and the master's chart have room for.
+    """
+    from formicarium.robots.footbot import ARMS
+    from formicarium.scheduling.checker import check
+    from formicarium.scheduling.solver import solve
+    from formicarium.systems.coverage.memory import SLOTS
+
+    answer = solve(instance, "travel", REACH, PLANNING_TIME)
+    assert answer.schedule is not None  # every valid instance has one: a slot a task
+    verdict = check(instance, answer.schedule, REACH, answer.time_limit)
+    if verdict.faults:
+        raise AssertionError(f"the checker refuses the schedule: {'; '.join(verdict.faults)}")
+    slots = answer.schedule.slots
+    for number, slot in enumerate(slots, 1):
+        if len(slot.arms) > ARMS:
+            raise UserError(
+                f"{file}: slot {number} of the plan has {len(slot.arms)} tasks, a message has room for {ARMS} arms: "
+                "give fewer robots, or say with 'after' which tasks come later"
+            )
+    if len(slots) > SLOTS:
+        raise UserError(f"{file}: the plan has {len(slots)} slots, at most {SLOTS} can be flown: give more robots")
+    return {
+        "swarm.robots": instance.robots,
+        "swarm.time_cap": SLOT_TIME * len(slots),
+        "tasks.programme": "mission",
+        "tasks.erupt_limit": ERUPT_LIMIT,
+        "behaviour.arm_choice": "quota",
+        "mission.planning_range": instance.spacing,
+        "mission.slots": [_slot_values(instance, slot) for slot in slots],
+    }
+
+
+def _slot_values(instance: Instance, slot: Any) -> dict[str, Any]:
+    x, y = instance.start
+    tasks = {task.name: task for task in instance.tasks}
+    return {
+        "x": slot.x - x,
+        "y": slot.y - y,
+        "tasks": [
+            {
+                "name": arm.task,
+                "x": tasks[arm.task].x - x,
+                "y": tasks[arm.task].y - y,
+                "duration": tasks[arm.task].duration,
+                "robots": arm.relays + tasks[arm.task].robots,
+            }
+            for arm in slot.arms
+        ],
+    }
