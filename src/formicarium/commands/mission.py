@@ -1,6 +1,6 @@
 """A map becomes a mission: tasks and robots from a file, a plan from the solver, and the plan among the parameters."""
 
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel
 
@@ -14,8 +14,11 @@ from formicarium.systems.registry import System
 
 SLOT_TIME = 900.0  # s, that a trial lasts at most for each slot [choice]
 ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
+SWEEP_CYCLES = 600  # an arm looks for its task between its robots after and within a minute [choice]
 PLANNING_TIME = 60.0  # s, then the best plan so far is flown
-REACH = "inscribed"  # never farther than the circle; the paper's octagon plans arms that are too long (ST-54)
+REACH: Literal["inscribed"] = (
+    "inscribed"  # never farther than the circle; the paper's octagon plans arms that are too long (ST-54)
+)
 
 
 def parameters_with_map(
@@ -92,6 +95,10 @@ def mission_values(instance: Instance, file: str) -> dict[str, Any]:
         "tasks.programme": "mission",
         "tasks.erupt_limit": ERUPT_LIMIT,
         "behaviour.arm_choice": "quota",
+        "behaviour.rendezvous": "flocking",
+        "behaviour.sweep_cycles": SWEEP_CYCLES,
+        "behaviour.strays": "return",
+        "behaviour.agreed_cycles": 0,  # with messages lost a count is seldom whole, and never for long
         "mission.planning_range": instance.spacing,
         "mission.slots": [_slot_values(instance, slot) for slot in slots],
     }

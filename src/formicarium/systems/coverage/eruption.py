@@ -11,6 +11,9 @@ from formicarium.systems.coverage.listening import slot_of
 from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
+RETURN = 1  # place of "return" among what strays do
+SWEEP_MIDDLE = 0.8  # of delta: from where a task between two robots is passed by one of them
+SWEEP_SWING = 0.3  # of delta, each way; 1.1 of 2.4 m is within the safe variant's longest link
 # How a spiral opens in the authors' files, by number modulo 20 (ST-40).
 BUZZ_SPIRALS = (
     *(0.17, 0.50, 0.73, 0.13, 0.12, 0.21, 0.43, 0.48, 0.61, 0.18),
@@ -82,7 +85,7 @@ def erupt(reading, memory, command, table, chart, footbot):
     elif memory.reference_place >= 0 and memory.arm > 0:
         if memory.aligned == 1:
             memory.stage = Stage.ALIGNED
-            press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
+            press(reading, memory, command, table, spacing_now(reading, memory, table), memory.arm, footbot.speed)
         else:
             memory.stage = Stage.SPIRALLING
             spiral(reading, memory, command, table, footbot)
@@ -91,6 +94,15 @@ def erupt(reading, memory, command, table, chart, footbot):
         press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
     else:
         be_lost(reading, memory, command, table, footbot)
+
+
+@compiled
+def spacing_now(reading, memory, table):
+    """Return delta (m): that of the phase, or while the arm sweeps, half to 1.1 of it: 0.8 + 0.3 cos(2 pi t / T)."""
+    time = reading.cycle - memory.since - table.sweep_cycles
+    if table.sweep_cycles == 0 or time < 0 or memory.arms[memory.arm - 1].reached > 0:
+        return memory.spacing
+    return memory.spacing * (SWEEP_MIDDLE + SWEEP_SWING * math.cos(2.0 * math.pi * time / table.sweep_cycles))
 
 
 @compiled
@@ -141,11 +153,13 @@ def spiral(reading, memory, command, table, footbot):
 def be_lost(reading, memory, command, table, footbot):
     """Without a reference: stand for half a second, draw near to others, and without a way to the master turn back.
 
-    The authors' files only draw near.
+    The authors' files only draw near. With a way to the master a stray may follow it instead.
     """
     memory.stage = Stage.LOST
     memory.aligned = 0
     silent = reading.cycle - memory.linked_at
+    if table.strays == RETURN and memory.linked == 1 and go_to_parent(reading, memory, command, table, footbot):
+        return
     if table.variant == BUZZ or (memory.linked == 1 and reading.packet_count > 0):
         press(reading, memory, command, table, table.close_spacing, 0, footbot.speed)
     elif silent <= table.fresh_cycles:
@@ -156,3 +170,14 @@ def be_lost(reading, memory, command, table, footbot):
         wish(command, memory.way_back, footbot.speed)
     else:
         clear(command)
+
+
+@compiled
+def go_to_parent(reading, memory, command, table, footbot):
+    """Go towards the next robot on the way to the master; tell whether it was heard and is not at hand already."""
+    for k in range(reading.packet_count):
+        packet = reading.packets[k]
+        if packet.sender == memory.parent and packet.range > table.separation_range:
+            wish(command, packet.bearing, footbot.speed)
+            return True
+    return False

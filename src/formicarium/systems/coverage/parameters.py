@@ -92,6 +92,20 @@ class BehaviourTable(Table):
         60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
     )
 
+    sweep_cycles: int = number(
+        0,
+        "cycles",
+        "an arm that has not found its task after so long draws in to half its delta and stretches beyond it, once in "
+        "so long, so that a task between two robots is found; 0: never [files]",
+        ge=0,
+    )
+    strays: Literal["close", "return"] = number(
+        "close",
+        "1",
+        "a robot of a known way and no reference: close: draws near to others [files]; return: goes along the way to "
+        "the master, where it finds one [choice]",
+    )
+
     arm_choice: Literal["draw", "quota", "blocks"] = number(
         "draw",
         "1",
@@ -121,6 +135,12 @@ class BehaviourTable(Table):
         "corrected", "1", "printed: separation weakens as robots touch, sums are not divided [ST-30]"
     )
     compact_range: float = number(1.5, "m", "r / 2: the swarm is compact if no gradient is longer [choice ST-30]", gt=0)
+    rendezvous: Literal["potential", "flocking"] = number(
+        "potential",
+        "1",
+        "potential: each draws near to whom it hears, so groups can stay apart [paper, ST-31]; flocking: by equation 3 "
+        "to the master, which stands [choice]",
+    )
     leader_share: float = number(0.6, "1", "of top speed, the master's in flocking [choice ST-30]", gt=0, le=1)
     arrival_range: float = number(0.3, "m", "of the master's odometry at the point of deployment [choice ST-30]", gt=0)
 
@@ -146,6 +166,8 @@ WORDS = {
     "force": FORCES,
     "arm_choice": CHOICES,
     "flocking": ("corrected", "printed"),
+    "rendezvous": ("potential", "flocking"),
+    "strays": ("close", "return"),
 }
 
 
