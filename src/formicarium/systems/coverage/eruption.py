@@ -12,8 +12,8 @@ from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
 RETURN = 1  # place of "return" among what strays do
-SWEEP_MIDDLE = 0.8  # of delta: from where a task between two robots is passed by one of them
-SWEEP_SWING = 0.3  # of delta, each way; 1.1 of 2.4 m is within the safe variant's longest link
+SWEEP_MIDDLE = 0.65  # of delta; down to 0.2 of it a lone robot comes within 0.5 m of any task nearer than itself
+SWEEP_SWING = 0.45  # of delta, each way; 1.1 of 2.4 m is within the safe variant's longest link
 # How a spiral opens in the authors' files, by number modulo 20 (ST-40).
 BUZZ_SPIRALS = (
     *(0.17, 0.50, 0.73, 0.13, 0.12, 0.21, 0.43, 0.48, 0.61, 0.18),
@@ -98,7 +98,7 @@ def erupt(reading, memory, command, table, chart, footbot):
 
 @compiled
 def spacing_now(reading, memory, table):
-    """Return delta (m): that of the phase, or while the arm sweeps, half to 1.1 of it: 0.8 + 0.3 cos(2 pi t / T)."""
+    """Return delta (m): that of the phase, or while the arm sweeps, 0.2 to 1.1 of it: 0.65 + 0.45 cos(2 pi t / T)."""
     time = reading.cycle - memory.since - table.sweep_cycles
     if table.sweep_cycles == 0 or time < 0 or memory.arms[memory.arm - 1].reached > 0:
         return memory.spacing

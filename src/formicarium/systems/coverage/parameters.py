@@ -95,7 +95,7 @@ class BehaviourTable(Table):
     sweep_cycles: int = number(
         0,
         "cycles",
-        "an arm that has not found its task after so long draws in to half its delta and stretches beyond it, once in "
+        "an arm that has not found its task after so long draws in to a fifth of its delta and stretches beyond it, once in "
         "so long, so that a task between two robots is found; 0: never [files]",
         ge=0,
     )
