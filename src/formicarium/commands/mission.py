@@ -15,6 +15,7 @@ from formicarium.systems.registry import System
 SLOT_TIME = 900.0  # s, that a trial lasts at most for each slot [choice]
 ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
 SWEEP_CYCLES = 600  # an arm looks for its task between its robots after and within a minute [choice]
+CENSUS_CYCLES = 300  # half a minute: a robot that is silent for longer is not waited for [choice ST-71]
 PLANNING_TIME = 60.0  # s, then the best plan so far is flown
 REACH: Literal["inscribed"] = (
     "inscribed"  # never farther than the circle; the paper's octagon plans arms that are too long (ST-54)
@@ -98,6 +99,7 @@ def mission_values(instance: Instance, file: str) -> dict[str, Any]:
         "behaviour.rendezvous": "flocking",
         "behaviour.sweep_cycles": SWEEP_CYCLES,
         "behaviour.strays": "return",
+        "behaviour.census_cycles": CENSUS_CYCLES,
         "behaviour.agreed_cycles": 0,  # with messages lost a count is seldom whole, and never for long
         "mission.planning_range": instance.spacing,
         "mission.slots": [_slot_values(instance, slot) for slot in slots],

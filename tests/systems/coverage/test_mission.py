@@ -1,13 +1,20 @@
 """Missions of several slots in one piece: order, forgetting, no jumps, and the tasks that a message speaks of."""
 
+import math
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from scipy.sparse.csgraph import connected_components
 
+from formicarium.contracts.states import copy_of
+from formicarium.systems.coverage.behaviour import decide
 from formicarium.systems.coverage.listening import slot_of
 from formicarium.systems.coverage.memory import Mode
 from formicarium.systems.coverage.parameters import coverage_parameters
-from systems.coverage.swarm import advance, stay, swarm
+from formicarium.trial.touching import touch_robot
+from formicarium.trial.watching import Intervention
+from systems.coverage.swarm import advance, line, stay, swarm
 
 SLOTS = (
     {
@@ -21,10 +28,23 @@ SLOTS = (
     {"x": 0.0, "y": -1.0, "tasks": ({"name": "roof", "x": -3.0, "y": -3.0, "duration": 4.0, "robots": 4},)},
 )
 
+FAR = {"x": 0.0, "y": 0.0, "tasks": ({"name": "mast", "x": 13.0, "y": 0.0, "duration": 5.0, "robots": 7},)}
+LATEST = 4000  # cycle; a master that waits for the dead is on its way to the second slot then
+PLANNED = {"programme": "mission", "erupt_limit": 100.0, "gather_limit": 20.0}
+FLOWN = {  # what a map's missions have switched on
+    "variant": "safe",
+    "arm_choice": "quota",
+    "rendezvous": "flocking",
+    "sweep_cycles": 600,
+    "strays": "return",
+    "agreed_cycles": 0,
+    "census_cycles": 300,
+}
+
 
 def mission(seed=1, robots=8, slots=SLOTS, **groups):
     groups = {
-        "tasks": {"programme": "mission", "erupt_limit": 300.0, "gather_limit": 20.0},
+        "tasks": PLANNED,
         "mission": {"slots": slots},
         **groups,
     }
@@ -103,6 +123,84 @@ def test_a_task_costs_no_bytes_beside_whether_its_direction_is_known():
     one = advance(mission(slots=SLOTS[1:]), 1000).commands.message
     assert (one["arms"]["task"][:, 0] == 1).all()
     assert (one["bytes"] == 54 + 27 * one["arm_count"] + 9 * one["entry_count"]).all()
+
+
+def test_numbers_name_robots_and_decide_nothing_in_a_mission():
+    """Trap 16: with other identities everybody does the same, from slot to slot."""
+    one = mission(behaviour=FLOWN)
+    other = copy_of(one)
+    other.robots.identity[:] = np.random.default_rng(1).permutation(other.robots.identity)
+    for state in (one, other):
+        advance(state, 1500)
+    assert slot_of(int(one.memories[0].epoch)) == 1
+    for name in ("x", "y", "heading"):
+        assert np.array_equal(one.world.bodies[name], other.world.bodies[name])
+
+
+def test_word_of_the_next_slot_travels_one_hop_a_cycle():
+    """Trap 17: in a chain whoever is h hops away forgets the arms h cycles after the master has."""
+    state = swarm(line(7), setting=0, tasks=PLANNED, mission={"slots": SLOTS})
+    state.memories.epoch, state.memories.mode = 3, Mode.HOLD
+    stay(state, 12)
+    assert (state.memories.arm_count == 2).all()
+    state.memories[0].epoch, state.memories[0].mode = 4, Mode.GATHER
+    state.charts[0].gather_cycles = 0
+    state.memories[0].since = state.clock[0].cycle
+    forgot = np.full(7, -1)
+    for cycle in range(12):
+        stay(state, 1)
+        new = (forgot < 0) & (state.memories.arm_count == 0)
+        forgot[new] = cycle
+    assert forgot.tolist() == [forgot[0] + h for h in range(7)]
+
+
+@pytest.mark.parametrize("cut", [False, True])
+def test_the_dead_are_silent_and_the_others_finish(cut):
+    """Traps 18 and 24: a robot dies as the arms are out, any one, or one whose loss parts the swarm."""
+    state = mission(slots=(FAR, *SLOTS[1:]), behaviour=FLOWN)
+    while state.tasks[0].worked < 20:
+        advance(state, 1)
+    victim = next(i for i in range(1, 8) if parts(state, i) == cut)
+    touch_robot(state, Intervention(0, "kill", int(state.robots[victim].identity)))
+    place = state.world.bodies[victim].x, state.world.bodies[victim].y
+    while not state.clock[0].finished and state.clock[0].cycle < 15000:
+        advance(state, 1)
+        assert state.commands[victim].message.bytes == 0 and state.commands[victim].enabled[0] == 0
+    assert (state.world.bodies[victim].x, state.world.bodies[victim].y) == place
+    assert state.clock[0].finished == 1 and state.clock[0].cycle < LATEST
+    assert state.tasks[-1].worked >= state.tasks[-1].needed
+
+
+def parts(state, victim):
+    """Tell whether the living without one are in several pieces by range."""
+    others = [i for i in range(len(state.robots)) if i != victim]
+    x, y = state.world.bodies.x[others], state.world.bodies.y[others]
+    near = np.hypot(x[:, None] - x, y[:, None] - y) <= state.footbot[0].radio_range
+    return connected_components(near, directed=False)[0] > 1
+
+
+def test_broken_messages_break_nothing_in_any_phase_of_a_mission():
+    """Trap 25: doubled, out of order, 30 % lost, of wrong slots and far too late phases."""
+    draws = np.random.default_rng(5)
+    state = mission(behaviour=FLOWN, footbot={"radio_loss": 0.3})
+    for _ in range(1500):
+        advance(state, 1)
+        i = int(draws.integers(len(state.robots)))
+        memory, command, reading = state.memories[i].copy(), state.commands[i].copy(), state.readings[i].copy()
+        count = int(reading.packet_count)
+        if count == 0:
+            continue
+        packets = np.asarray(reading.packets)
+        packets[: 2 * count] = packets[draws.integers(0, count, 2 * count)]
+        packets["named"][:count] = 0
+        packets["bearing_of_me"][packets["named"] == 0] = np.nan
+        packets["epoch"][: 2 * count] = draws.integers(0, 200, 2 * count)
+        packets["arm_count"][: 2 * count] = draws.integers(0, 7, 2 * count)
+        reading.packet_count = 2 * count
+        decide(reading, memory, command, state.behaviour[0], state.charts[i], state.footbot[0])
+        for value in (command.left, command.right, *memory.arms["direction"]):
+            assert math.isfinite(value)
+    assert slot_of(int(state.memories[0].epoch)) == 1
 
 
 @pytest.mark.parametrize(

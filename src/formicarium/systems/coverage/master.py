@@ -38,7 +38,8 @@ def lead(reading, memory, command, table, chart, footbot):
     cycle = reading.cycle
     clear(command)
     slot = chart.slots[min(slot_of(memory.epoch), chart.slot_count - 1)]
-    if memory.counted == chart.robots:
+    take_census(memory, table, chart, cycle)
+    if memory.counted == memory.crew:
         memory.all_heard = cycle
     if memory.epoch == 0:
         flocks = chart.programme != ENDLESS and slot.travel == 1
@@ -55,7 +56,7 @@ def lead(reading, memory, command, table, chart, footbot):
         if memory.held >= slot.hold_cycles or cycle - memory.since > slot.hold_limit:
             call_out(memory, Mode.GATHER, table.gather_spacing, cycle)
     elif memory.mode == Mode.GATHER:
-        if is_compact(memory, table, chart) or cycle - memory.since > chart.gather_cycles:
+        if is_compact(memory, table) or cycle - memory.since > chart.gather_cycles:
             if slot_of(memory.epoch) + 1 < chart.slot_count:
                 begin_slot(memory, table, cycle)
             else:
@@ -65,6 +66,27 @@ def lead(reading, memory, command, table, chart, footbot):
         point_out(memory, slot)
         if table.arm_choice == QUOTA and not all_reached(memory):
             correct_arms(memory, table, chart, slot, cycle)
+
+
+@compiled
+def take_census(memory, table, chart, cycle):
+    """Reckon with as many robots as have been counted of late; who comes back is one of them again.
+
+    Counted in two cycles running: who changes its way to the master may be counted twice in one.
+    """
+    counted = min(memory.counted, memory.before, chart.robots)
+    memory.before = memory.counted
+    if memory.crew == 0:
+        memory.crew = chart.robots
+        memory.census = cycle
+    memory.most = max(memory.most, counted)
+    if table.census_cycles == 0:
+        return
+    memory.crew = max(memory.crew, counted)
+    if cycle - memory.census >= table.census_cycles:
+        memory.crew = memory.most
+        memory.most = 0
+        memory.census = cycle
 
 
 @compiled
@@ -90,16 +112,16 @@ def travel(reading, memory, command, table, chart, slot, footbot):
     aside = slot.point_aside - memory.way_aside
     together = memory.farthest <= table.compact_range and reading.cycle - memory.all_heard <= table.keep_cycles
     if ahead * ahead + aside * aside <= table.arrival_range * table.arrival_range:
-        return is_compact(memory, table, chart) or reading.cycle - memory.since > chart.erupt_cycles
+        return is_compact(memory, table) or reading.cycle - memory.since > chart.erupt_cycles
     if together:
         wish(command, wrapped(math.atan2(aside, ahead) - memory.facing), table.leader_share * footbot.speed)
     return False
 
 
 @compiled
-def is_compact(memory, table, chart):
+def is_compact(memory, table):
     """Tell whether everybody reports a short way."""
-    return memory.counted == chart.robots and memory.farthest <= table.compact_range
+    return memory.counted == memory.crew and memory.farthest <= table.compact_range
 
 
 @compiled
@@ -112,12 +134,12 @@ def all_reached(memory):
 
 
 @compiled
-def quota(chart, slot, k):
+def quota(memory, slot, k):
     """Return how many backbone robots arm k should have: shares of the weights, the rest to the first arms."""
     total = 0.0
     for arm in range(slot.task_count):
         total += slot.wanted[arm]
-    crew = chart.robots - 1
+    crew = memory.crew - 1
     given = 0
     for arm in range(slot.task_count):
         given += int(crew * slot.wanted[arm] / total)
@@ -126,7 +148,7 @@ def quota(chart, slot, k):
 
 
 @compiled
-def note_tally(memory, chart):
+def note_tally(memory):
     """Note for how many cycles running everybody was counted, arm by arm the same.
 
     Who changes its way to the master is counted twice or not at all meanwhile, and such errors may make up for each
@@ -138,7 +160,7 @@ def note_tally(memory, chart):
         total += memory.arms[k].count
         same = same and memory.arms[k].count == memory.tally[k]
         memory.tally[k] = memory.arms[k].count
-    memory.agreed = memory.agreed + 1 if same and total == chart.robots - 1 else 0
+    memory.agreed = memory.agreed + 1 if same and total == memory.crew - 1 else 0
 
 
 @compiled
@@ -147,20 +169,20 @@ def correct_arms(memory, table, chart, slot, cycle):
 
     Only when everybody is counted and has an arm, and not later than ``correction_limit`` into the eruption.
     """
-    note_tally(memory, chart)
+    note_tally(memory)
     if cycle - memory.since > chart.correction_limit or cycle - memory.corrected < table.correction_cycles:
         return
     if memory.agreed < table.agreed_cycles:
         return
     wrong = False
     for k in range(memory.arm_count):
-        wrong = wrong or memory.arms[k].count != quota(chart, slot, k)
+        wrong = wrong or memory.arms[k].count != quota(memory, slot, k)
     if not wrong:
         return
     memory.corrected = cycle
     memory.correction += 1
     for k in range(memory.arm_count):
         arm = memory.arms[k]
-        surplus = arm.count - quota(chart, slot, k)
+        surplus = arm.count - quota(memory, slot, k)
         arm.weight = max(0.0, -1.0 * surplus)
         arm.leave = max(0.0, surplus / max(1.0, 1.0 * arm.count))

@@ -93,6 +93,10 @@ MEMORY = np.dtype(
         ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
         ("agreed", "i8"),  # cycles for which that was everybody and has not changed
         ("held", "i8"),  # cycles for which all tasks of the slot were held
+        ("crew", "i8"),  # how many robots it reckons with, itself too
+        ("before", "i8"),  # counted in the last cycle
+        ("most", "i8"),  # counted in two cycles running since the last census
+        ("census", "i8"),  # cycle of that
         ("all_heard", "i8"),  # cycle at which everybody was last counted
         ("done", "i8"),  # 1 when the programme is over
     ],

@@ -92,11 +92,17 @@ class BehaviourTable(Table):
         60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
     )
 
+    census_cycles: int = number(
+        0,
+        "cycles",
+        "the master reckons with no more robots than it has counted in so long; 0: with all, for ever [choice ST-71]",
+        ge=0,
+    )
     sweep_cycles: int = number(
         0,
         "cycles",
-        "an arm that has not found its task after so long draws in to a fifth of its delta and stretches beyond it, once in "
-        "so long, so that a task between two robots is found; 0: never [files]",
+        "an arm that has not found its task after so long draws in to a fifth of its delta and stretches beyond it, "
+        "once in so long, so that a task between two robots is found; 0: never [files]",
         ge=0,
     )
     strays: Literal["close", "return"] = number(
