@@ -1,15 +1,19 @@
 """A map becomes a mission: tasks and robots from a file, a plan from the solver, and the plan among the parameters."""
 
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from pydantic import BaseModel
+from rich.console import Console
 
+from formicarium.campaigns.table import Row
 from formicarium.commands.errors import UserError
 from formicarium.commands.extras import require
 from formicarium.commands.fields import with_settings, with_values
 from formicarium.commands.known import parameters_of
 from formicarium.scheduling.instance import Instance
 from formicarium.scheduling.reading import read_instance
+from formicarium.statistics.runtimes import in_words, run_times
 from formicarium.systems.registry import System
 
 SLOT_TIME = 900.0  # s, that a trial lasts at most for each slot [choice]
@@ -123,3 +127,22 @@ def _slot_values(instance: Instance, slot: Any) -> dict[str, Any]:
             for arm in slot.arms
         ],
     }
+
+
+def print_missions(console: Console, rows: Sequence[Row]) -> None:
+    """Print how many missions were done, how long they took beside the plan and in which phase, and who was lost."""
+    numbers: list[dict[str, Any]] = [dict(row) for row in rows]
+    done, runs = sum(row["mission_done"] for row in numbers), len(numbers)
+    tasks, asked = sum(row["tasks_done"] for row in numbers), sum(row["tasks"] for row in numbers)
+    whole = sum(row["lost_share_range"] == 0.0 for row in numbers)
+    times = run_times([row["mission_s"] for row in numbers], [row["duration_s"] for row in numbers])
+    phases = ", ".join(
+        f"{name} {sum(row[f'{name}_s'] for row in numbers) / runs:.0f} s"
+        for name in ("flock", "erupt", "hold", "gather")
+    )
+    console.print(f"missions  {done} of {runs} done, {tasks} of {asked} tasks", highlight=False)
+    console.print(
+        f"time      {in_words(times.median)} (median), {numbers[0]['planned_s']:g} s of them planned; {phases} (means)",
+        highlight=False,
+    )
+    console.print(f"connected at every step: {whole} of {runs} runs", highlight=False)

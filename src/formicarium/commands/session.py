@@ -12,7 +12,7 @@ from formicarium.campaigns.runner import SetReport, run_set
 from formicarium.campaigns.store import Store
 from formicarium.commands.errors import UserError
 from formicarium.commands.known import find_system
-from formicarium.commands.mission import parameters_with_map
+from formicarium.commands.mission import parameters_with_map, print_missions
 from formicarium.commands.pictures import draw_run, draw_set
 from formicarium.commands.progress import Progress
 from formicarium.commands.runs import RECORDINGS
@@ -99,6 +99,8 @@ def perform(request: Request) -> int:
                 stills = len(seeds) == 1
                 pictures += draw_run(system, store, seed, folder, stills, _has_movie(request, seed), progress.inside)
         print_summary(screen, system, store, seeds, report, folder, pictures)
+        if request.map is not None and store.rows_of(seeds):
+            print_missions(screen, store.rows_of(seeds))
         return _report_failures(report, folder)
 
 
