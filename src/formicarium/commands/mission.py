@@ -100,6 +100,7 @@ def mission_values(instance: Instance, file: str) -> dict[str, Any]:
         "tasks.programme": "mission",
         "tasks.erupt_limit": ERUPT_LIMIT,
         "behaviour.arm_choice": "quota",
+        "behaviour.correction_limit": ERUPT_LIMIT,  # an arm without a robot must get one, however late
         "behaviour.rendezvous": "flocking",
         "behaviour.sweep_cycles": SWEEP_CYCLES,
         "behaviour.strays": "return",

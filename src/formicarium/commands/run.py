@@ -36,7 +36,7 @@ def run(
         formicarium run mark-i3 --seed 7 --movie
         formicarium run mark-i3 --runs 30 --setting 2 --out study
         formicarium run mark-i3 --robots 28 --set booth.task_time=4
-        formicarium run coverage --map tasks.toml --set variant=safe
+        formicarium run coverage --map tasks.csv --robots 21 --set variant=safe
 
     Parameters
     ----------

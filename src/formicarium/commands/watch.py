@@ -35,7 +35,7 @@ def watch(
         formicarium watch mark-i3
         formicarium watch mark-i3 --seed 7 --speed 30
         formicarium watch mark-i3 --robots 28 --set booth.task_time=4 --paused
-        formicarium watch coverage --map tasks.toml --speed 10
+        formicarium watch coverage --map tasks.csv --robots 21 --speed 10
 
     Parameters
     ----------
