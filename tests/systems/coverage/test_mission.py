@@ -7,7 +7,8 @@ import pytest
 from pydantic import ValidationError
 from scipy.sparse.csgraph import connected_components
 
-from formicarium.contracts.states import copy_of
+from formicarium.contracts.interpreted import compiled, interpreted
+from formicarium.contracts.states import copy_of, differences
 from formicarium.systems.coverage.behaviour import decide
 from formicarium.systems.coverage.listening import slot_of
 from formicarium.systems.coverage.memory import Mode
@@ -152,6 +153,17 @@ def test_word_of_the_next_slot_travels_one_hop_a_cycle():
         new = (forgot < 0) & (state.memories.arm_count == 0)
         forgot[new] = cycle
     assert forgot.tolist() == [forgot[0] + h for h in range(7)]
+
+
+def test_a_slot_begins_the_same_compiled_and_interpreted():
+    state = mission(behaviour=FLOWN)
+    while state.memories[0].mode != Mode.GATHER:
+        advance(state, 1)
+    state.charts[0].gather_cycles = 4
+    state.memories[0].since = state.clock[0].cycle
+    expected = compiled("coverage", state, 16)
+    assert slot_of(int(expected.memories[0].epoch)) == 1 and (expected.memories.arm == 0).all()
+    assert differences(interpreted("coverage", state, 16), expected) == []
 
 
 @pytest.mark.parametrize("cut", [False, True])
