@@ -16,7 +16,8 @@ from formicarium.scheduling.reading import read_instance
 from formicarium.statistics.runtimes import in_words, run_times
 from formicarium.systems.registry import System
 
-SLOT_TIME = 900.0  # s, that a trial lasts at most for each slot [choice]
+ATTEMPTS = 2  # at a slot [choice]
+SLOT_TIME = 900.0  # s, that a trial lasts at most for each attempt at a slot [choice]
 ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
 SWEEP_CYCLES = 600  # an arm looks for its task between its robots after and within a minute [choice]
 CENSUS_CYCLES = 300  # half a minute: a robot that is silent for longer is not waited for [choice ST-71]
@@ -96,7 +97,8 @@ def mission_values(instance: Instance, file: str) -> dict[str, Any]:
         raise UserError(f"{file}: the plan has {len(slots)} slots, at most {SLOTS} can be flown: give more robots")
     return {
         "swarm.robots": instance.robots,
-        "swarm.time_cap": SLOT_TIME * len(slots),
+        "swarm.time_cap": SLOT_TIME * ATTEMPTS * len(slots),
+        "tasks.attempts": ATTEMPTS,
         "tasks.programme": "mission",
         "tasks.erupt_limit": ERUPT_LIMIT,
         "behaviour.arm_choice": "quota",

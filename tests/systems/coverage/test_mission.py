@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 from formicarium.contracts.interpreted import compiled, interpreted
 from formicarium.contracts.states import copy_of, differences
 from formicarium.systems.coverage.behaviour import decide
-from formicarium.systems.coverage.listening import slot_of
+from formicarium.systems.coverage.listening import round_of
 from formicarium.systems.coverage.memory import Mode
 from formicarium.systems.coverage.parameters import coverage_parameters
 from formicarium.trial.touching import touch_robot
@@ -57,7 +57,7 @@ def test_slots_follow_each_other_and_end():
     phases = []
     while not state.clock[0].finished and state.clock[0].cycle < 9000:
         advance(state, 1)
-        now = (slot_of(int(state.memories[0].epoch)), int(state.memories[0].mode))
+        now = (round_of(int(state.memories[0].epoch)), int(state.memories[0].mode))
         if not phases or phases[-1] != now:
             phases.append(now)
     one_slot = [Mode.FLOCK, Mode.ERUPT, Mode.HOLD, Mode.GATHER]
@@ -86,7 +86,7 @@ def test_arms_are_forgotten_with_their_slot_even_by_who_missed_its_end():
         advance(state, 1)
     assert (state.memories.arm[1:] > 0).all() and (state.memories[0].arms["task"][:2] == (1, 2)).all()
     late = state.memories[7:8].copy()
-    while not (slot_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
+    while not (round_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
         advance(state, 1)
     state.memories[7] = late[0]
     stay(state, 5)
@@ -103,7 +103,7 @@ def test_who_has_not_heard_of_the_new_slot_teaches_no_old_arms():
     while state.memories[0].mode == Mode.GATHER:
         advance(state, 1)
     for _ in range(10):
-        told = slot_of(1) != np.array([slot_of(int(epoch)) for epoch in state.memories.epoch])
+        told = round_of(1) != np.array([round_of(int(epoch)) for epoch in state.memories.epoch])
         assert (state.memories.arm_count[told] == 0).all() and (state.memories.arm[told] == 0).all()
         advance(state, 1)
     assert told.all()
@@ -113,7 +113,7 @@ def test_a_beacon_of_another_slot_stops_nobody():
     """Traps 15: arms have numbers in their slot, tasks in the mission; the beacon of task 1 is not that of arm 1."""
     state = mission()
     state.beacons.task[2] = 1
-    while not (slot_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
+    while not (round_of(int(state.memories[0].epoch)) == 1 and state.memories[0].mode == Mode.ERUPT):
         advance(state, 1)
     advance(state, 600)
     assert state.memories[0].mode == Mode.ERUPT and (state.memories.arms["reached"][:, 0] == 0).all()
@@ -133,7 +133,7 @@ def test_numbers_name_robots_and_decide_nothing_in_a_mission():
     other.robots.identity[:] = np.random.default_rng(1).permutation(other.robots.identity)
     for state in (one, other):
         advance(state, 1500)
-    assert slot_of(int(one.memories[0].epoch)) == 1
+    assert round_of(int(one.memories[0].epoch)) == 1
     for name in ("x", "y", "heading"):
         assert np.array_equal(one.world.bodies[name], other.world.bodies[name])
 
@@ -155,6 +155,20 @@ def test_word_of_the_next_slot_travels_one_hop_a_cycle():
     assert forgot.tolist() == [forgot[0] + h for h in range(7)]
 
 
+@pytest.mark.parametrize(("attempts", "rounds"), [(1, [0, 1]), (2, [0, 0, 1, 1])])
+def test_a_slot_that_was_not_held_is_tried_again(attempts, rounds):
+    """The master knows of its tasks by word alone: the beacons are away, and no word comes."""
+    state = mission(tasks={**PLANNED, "erupt_limit": 10.0, "attempts": attempts}, behaviour=FLOWN)
+    state.beacons.x += 100.0
+    slots, epoch = [], 0
+    while not state.clock[0].finished and state.clock[0].cycle < 9000:
+        advance(state, 1)
+        if state.memories[0].epoch != epoch:
+            epoch = int(state.memories[0].epoch)
+            slots += [int(state.memories[0].slot)] if state.memories[0].mode == Mode.ERUPT else []
+    assert slots == rounds and state.clock[0].finished == 1
+
+
 def test_a_slot_begins_the_same_compiled_and_interpreted():
     state = mission(behaviour=FLOWN)
     while state.memories[0].mode != Mode.GATHER:
@@ -162,7 +176,7 @@ def test_a_slot_begins_the_same_compiled_and_interpreted():
     state.charts[0].gather_cycles = 4
     state.memories[0].since = state.clock[0].cycle
     expected = compiled("coverage", state, 16)
-    assert slot_of(int(expected.memories[0].epoch)) == 1 and (expected.memories.arm == 0).all()
+    assert round_of(int(expected.memories[0].epoch)) == 1 and (expected.memories.arm == 0).all()
     assert differences(interpreted("coverage", state, 16), expected) == []
 
 
@@ -212,7 +226,7 @@ def test_broken_messages_break_nothing_in_any_phase_of_a_mission():
         decide(reading, memory, command, state.behaviour[0], state.charts[i], state.footbot[0])
         for value in (command.left, command.right, *memory.arms["direction"]):
             assert math.isfinite(value)
-    assert slot_of(int(state.memories[0].epoch)) == 1
+    assert round_of(int(state.memories[0].epoch)) == 1
 
 
 @pytest.mark.parametrize(

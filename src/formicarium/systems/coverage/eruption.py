@@ -7,7 +7,7 @@ from formicarium.compiled import compiled
 from formicarium.control.bearings import carried_over, carried_over_printed
 from formicarium.systems.coverage.arms import chance
 from formicarium.systems.coverage.forces import clear, press, wish
-from formicarium.systems.coverage.listening import slot_of
+from formicarium.systems.coverage.listening import round_of
 from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
@@ -33,7 +33,7 @@ def find_reference(reading, memory):
         packet = reading.packets[k]
         if packet.linked == 0 or packet.named == 0 or packet.arm_count == 0:
             continue
-        if packet.arms[0].known == 0 or slot_of(packet.epoch) != slot_of(memory.epoch):
+        if packet.arms[0].known == 0 or round_of(packet.epoch) != round_of(memory.epoch):
             continue
         if packet.hops == 0:
             best = k

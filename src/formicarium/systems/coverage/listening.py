@@ -7,19 +7,19 @@ from formicarium.compiled import compiled
 from formicarium.systems.coverage.memory import Stage
 
 BUZZ = 1  # place of "buzz" among the variants
-PHASES = 4  # epochs of a slot: flock, erupt, hold, gather
+PHASES = 4  # epochs of a round: flock, erupt, hold, gather
 BUZZ_RESET = 100  # cycles between two resets of the gradient in the authors' files
 
 
 @compiled
-def slot_of(epoch):
-    """Return which slot of the mission an epoch belongs to, from 0; nobody needs to say it beside the epoch."""
+def round_of(epoch):
+    """Return the number of the round of four phases that an epoch belongs to: a slot, or another try at one."""
     return max(0, epoch - 1) // PHASES
 
 
 @compiled
 def forget_arms(memory):
-    """Begin a slot: nothing said of the arms before is true of those to come."""
+    """Begin a round: nothing said of the arms before is true of those to come."""
     memory.arm = 0
     memory.arm_count = 0
     memory.correction = 0
@@ -60,12 +60,12 @@ def carry(reading, memory):
 def hear_phase(reading, memory):
     """Take over the newest phase that anybody speaks of, and the newest word on the arms; both spread as a flood.
 
-    Whoever has not heard of a new slot yet speaks of arms that are no more.
+    Whoever has not heard of a new round yet speaks of arms that are no more.
     """
     for k in range(reading.packet_count):
         packet = reading.packets[k]
         if packet.epoch > memory.epoch:
-            if slot_of(packet.epoch) != slot_of(memory.epoch):
+            if round_of(packet.epoch) != round_of(memory.epoch):
                 forget_arms(memory)
             memory.epoch = packet.epoch
             memory.mode = packet.mode
@@ -73,7 +73,7 @@ def hear_phase(reading, memory):
             memory.since = reading.cycle
             memory.stage = Stage.WAITING
             memory.aligned = 0
-        if packet.arm_count == 0 or slot_of(packet.epoch) != slot_of(memory.epoch):
+        if packet.arm_count == 0 or round_of(packet.epoch) != round_of(memory.epoch):
             continue
         if packet.correction > memory.correction or memory.arm_count == 0:
             memory.arm_count = packet.arm_count
@@ -160,7 +160,7 @@ def count_behind(reading, memory):
         if packet.parent == reading.identity:
             memory.counted += packet.counted
             memory.farthest = max(memory.farthest, packet.farthest)
-            if slot_of(packet.epoch) == slot_of(memory.epoch):
+            if round_of(packet.epoch) == round_of(memory.epoch):
                 for arm in range(min(memory.arm_count, packet.arm_count)):
                     memory.arms[arm].count += packet.arms[arm].count
 
@@ -177,7 +177,7 @@ def hear_reached(reading, memory, table):
         most = memory.arms[arm].reached
         for k in range(reading.packet_count):
             packet = reading.packets[k]
-            if arm < packet.arm_count and slot_of(packet.epoch) == slot_of(memory.epoch):
+            if arm < packet.arm_count and round_of(packet.epoch) == round_of(memory.epoch):
                 most = max(most, packet.arms[arm].reached)
         memory.arms[arm].reached = max(0, most - 1)
     if memory.arm > 0 and reading.beacon == memory.arms[memory.arm - 1].task and memory.linked == 1:

@@ -5,7 +5,7 @@ import math
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.systems.coverage.forces import clear, wish
-from formicarium.systems.coverage.listening import forget_arms, slot_of
+from formicarium.systems.coverage.listening import forget_arms
 from formicarium.systems.coverage.memory import Mode, Stage
 
 QUOTA = 1  # place of "quota" among the choices
@@ -23,7 +23,7 @@ def call_out(memory, mode, spacing, cycle):
 
 @compiled
 def begin_slot(memory, table, cycle):
-    """Go on to the next slot from where the swarm is: it flocks, and the arms of the last slot are forgotten."""
+    """Begin a slot, or begin it again, from where the swarm is: it flocks, and the arms so far are forgotten."""
     forget_arms(memory)
     memory.agreed = 0
     memory.held = 0
@@ -37,7 +37,7 @@ def lead(reading, memory, command, table, chart, footbot):
     """Do the master's part in the present phase, and go on to the next when its time has come."""
     cycle = reading.cycle
     clear(command)
-    slot = chart.slots[min(slot_of(memory.epoch), chart.slot_count - 1)]
+    slot = chart.slots[memory.slot]
     take_census(memory, table, chart, cycle)
     if memory.counted == memory.crew:
         memory.all_heard = cycle
@@ -57,7 +57,12 @@ def lead(reading, memory, command, table, chart, footbot):
             call_out(memory, Mode.GATHER, table.gather_spacing, cycle)
     elif memory.mode == Mode.GATHER:
         if is_compact(memory, table) or cycle - memory.since > chart.gather_cycles:
-            if slot_of(memory.epoch) + 1 < chart.slot_count:
+            if memory.held < slot.hold_cycles and memory.tries + 1 < chart.attempts:
+                memory.tries += 1
+                begin_slot(memory, table, cycle)
+            elif memory.slot + 1 < chart.slot_count:
+                memory.tries = 0
+                memory.slot += 1
                 begin_slot(memory, table, cycle)
             else:
                 memory.done = 1

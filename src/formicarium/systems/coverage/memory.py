@@ -12,7 +12,7 @@ SLOTS = 16  # of a mission, at most
 
 
 class Mode(IntEnum):
-    """The phases that the master calls out; an epoch is one call, and four epochs are one slot of a mission."""
+    """The phases that the master calls out; an epoch is one call, four are a round, one slot of a mission."""
 
     WAIT = 0  # nothing heard yet
     FLOCK = 1
@@ -92,6 +92,8 @@ MEMORY = np.dtype(
         ("corrected", "i8"),  # cycle of the last correction of the arms
         ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
         ("agreed", "i8"),  # cycles for which that was everybody and has not changed
+        ("slot", "i8"),  # the plan's, that it is at
+        ("tries", "i8"),  # of it before
         ("held", "i8"),  # cycles for which all tasks of the slot were held
         ("crew", "i8"),  # how many robots it reckons with, itself too
         ("before", "i8"),  # counted in the last cycle
@@ -130,6 +132,7 @@ CHART = np.dtype(
         ("stop", "i8"),
         ("erupt_cycles", "i8"),
         ("gather_cycles", "i8"),
+        ("attempts", "i8"),  # at a slot
         ("correction_limit", "i8"),  # cycles
         ("cycle_time", "f8"),
     ],

@@ -58,6 +58,9 @@ class TaskTable(Table):
     erupt_limit: float = number(
         600.0, "s", "then arms that have reached their tasks hold them, in a tour or mission [choice]", gt=0
     )
+    attempts: int = number(
+        1, "1", "at a slot of a mission, while its tasks were not held all at once [choice ST-72]", ge=1, le=9
+    )
     gather_limit: float = number(120.0, "s", "a rendez-vous ends by then, in a tour or mission [choice ST-31]", gt=0)
 
 

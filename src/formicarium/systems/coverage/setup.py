@@ -178,6 +178,7 @@ def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.
         chart.slot_count = len(arena.sites)
         for number in range(len(arena.sites)):
             write_slot(chart.slots[number], p, arena, number)
+        chart.attempts = t.attempts
         chart.erupt_cycles = round(t.erupt_limit / cycle_time)
         chart.gather_cycles = round(t.gather_limit / cycle_time)
         chart.correction_limit = round(p.behaviour.correction_limit / cycle_time)
