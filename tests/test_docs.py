@@ -43,7 +43,7 @@ def test_every_command_that_is_shown_works(line, tmp_path, monkeypatch):
     if "seven" in words and words[0] != "run":
         made = ["run", "mark-i3", "--seed", "7", "--record", "--out", "seven", "--set", "time_cap=20", "--workers", "1"]
         assert exit_code(made) == 0
-    if words[0] == "schedule":
+    if words[0] == "schedule" or "--map" in words:
         (tmp_path / "tasks.csv").write_text("name,x,y\nwell,3,1\nmill,-2,4\n", encoding="utf-8")
     if words[0] == "run":
         if "--runs" in words:

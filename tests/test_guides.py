@@ -122,3 +122,11 @@ def test_the_guide_to_scheduling_is_true(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     follow("scheduling")
     assert {file.name for file in (tmp_path / "rescue").iterdir()} == {"schedule.json", "map.png", "gantt.png"}
+
+
+def test_the_guide_to_missions_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("highspy")
+    monkeypatch.chdir(tmp_path)
+    follow("mission")
+    for name in ("garden.toml", "street.csv"):  # those of the results page
+        assert (tmp_path / name).read_text() == (ROOT / "docs" / "maps" / name).read_text()

@@ -17,6 +17,7 @@ def run(
     robots: Whole | None = None,
     setting: Whole | None = None,
     set_: Annotated[list[str] | None, Parameter(name="--set", negative="")] = None,
+    map_: Annotated[str | None, Parameter(name="--map")] = None,
     out: str | None = None,
     workers: Whole | None = None,
     movie: Annotated[bool, Parameter(negative="")] = False,
@@ -35,6 +36,7 @@ def run(
         formicarium run mark-i3 --seed 7 --movie
         formicarium run mark-i3 --runs 30 --setting 2 --out study
         formicarium run mark-i3 --robots 28 --set booth.task_time=4
+        formicarium run coverage --map tasks.csv --robots 21 --set variant=safe
 
     Parameters
     ----------
@@ -50,6 +52,9 @@ def run(
         A published setting of the system, by its number.
     set_
         Change a parameter: NAME=VALUE, as often as needed. List: formicarium describe SYSTEM
+    map_
+        Tasks in a file (.toml, .json, .csv), planned and then done by a swarm that can; with --robots, if the
+        file lists no teams. The guide: docs/guides/mission.md
     out
         Folder of the results; a new folder of formicarium-results for each identity if not given.
     workers
@@ -68,4 +73,4 @@ def run(
         raise UserError("--out is empty: name a folder, or leave --out away for one in formicarium-results")
     folder = None if out is None else Path(out)
     settings = tuple(set_ or ())
-    return perform(Request(system, runs, seed, robots, setting, settings, folder, workers, movie, frames, record))
+    return perform(Request(system, runs, seed, robots, setting, settings, folder, workers, movie, frames, record, map_))

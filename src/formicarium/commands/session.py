@@ -11,7 +11,8 @@ from formicarium.campaigns.provenance import session
 from formicarium.campaigns.runner import SetReport, run_set
 from formicarium.campaigns.store import Store
 from formicarium.commands.errors import UserError
-from formicarium.commands.known import find_system, parameters_of
+from formicarium.commands.known import find_system
+from formicarium.commands.mission import parameters_with_map, print_missions
 from formicarium.commands.pictures import draw_run, draw_set
 from formicarium.commands.progress import Progress
 from formicarium.commands.runs import RECORDINGS
@@ -41,6 +42,7 @@ class Request(NamedTuple):
     movie: bool
     frames: float | None
     record: bool = False
+    map: str | None = None
 
 
 def perform(request: Request) -> int:
@@ -53,7 +55,7 @@ def perform(request: Request) -> int:
     """
     _check(request)
     system = find_system(request.system)
-    parameters = parameters_of(system, request.setting, request.robots, request.settings)
+    parameters = parameters_with_map(system, request.setting, request.robots, request.settings, request.map)
     configuration = configuration_of(system, parameters)
     folder = request.out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}"
     seeds = range(request.seed, request.seed + request.runs)
@@ -97,6 +99,8 @@ def perform(request: Request) -> int:
                 stills = len(seeds) == 1
                 pictures += draw_run(system, store, seed, folder, stills, _has_movie(request, seed), progress.inside)
         print_summary(screen, system, store, seeds, report, folder, pictures)
+        if request.map is not None and store.rows_of(seeds):
+            print_missions(screen, store.rows_of(seeds))
         return _report_failures(report, folder)
 
 

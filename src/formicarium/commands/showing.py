@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 from formicarium.campaigns.configuration import Configuration
 from formicarium.commands.errors import UserError
 from formicarium.commands.extras import require
-from formicarium.commands.known import find_system, parameters_of
+from formicarium.commands.known import find_system
+from formicarium.commands.mission import parameters_with_map
 from formicarium.commands.work import RECORDED_EVERY, configuration_of
 from formicarium.systems.registry import System
 
@@ -47,6 +48,7 @@ def watch_live(
     settings: tuple[str, ...],
     out: Path | None,
     page: Page,
+    map_file: str | None = None,
 ) -> int:
     """Run a trial on a live page and record it; return the exit code.
 
@@ -61,7 +63,7 @@ def watch_live(
     if not 0 <= seed < 2**63:
         raise UserError(f"--seed {seed}: must be a whole number from 0 to 2^63 - 1")
     system = find_system(name)
-    parameters = parameters_of(system, setting, robots, settings)
+    parameters = parameters_with_map(system, setting, robots, settings, map_file)
     check(page)
     configuration = configuration_of(system, parameters)
     print(f"{system.name}, seed {seed}: getting ready", file=sys.stderr)

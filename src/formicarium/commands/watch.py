@@ -16,6 +16,7 @@ def watch(
     robots: Whole | None = None,
     setting: Whole | None = None,
     set_: Annotated[list[str] | None, Parameter(name="--set", negative="")] = None,
+    map_: Annotated[str | None, Parameter(name="--map")] = None,
     speed: float = 1.0,
     paused: Annotated[bool, Parameter(negative="")] = False,
     out: str | None = None,
@@ -34,6 +35,7 @@ def watch(
         formicarium watch mark-i3
         formicarium watch mark-i3 --seed 7 --speed 30
         formicarium watch mark-i3 --robots 28 --set booth.task_time=4 --paused
+        formicarium watch coverage --map tasks.csv --robots 21 --speed 10
 
     Parameters
     ----------
@@ -47,6 +49,8 @@ def watch(
         A published setting of the system, by its number.
     set_
         Change a parameter: NAME=VALUE, as often as needed. List: formicarium describe SYSTEM
+    map_
+        Tasks in a file, planned and then done by a swarm that can; as of: formicarium run --map
     speed
         Times real time; 0 for as fast as it goes.
     paused
@@ -63,4 +67,5 @@ def watch(
     from formicarium.commands.showing import Page, watch_live
 
     page = Page(host, port, speed, not paused, browser)
-    return watch_live(system, seed, robots, setting, tuple(set_ or ()), None if out is None else Path(out), page)
+    folder = None if out is None else Path(out)
+    return watch_live(system, seed, robots, setting, tuple(set_ or ()), folder, page, map_)

@@ -13,6 +13,7 @@ import numpy as np
 from formicarium.tables import Table, number
 
 ARMS = 6  # arms that a message has room for
+TASKS = 127  # a task's number and whether its direction is known share a byte of a message
 PACKETS = 128  # messages a robot can hear in one cycle; a swarm has no more robots
 IDENTITIES = 256  # robots have numbers below this
 ENTRIES = 50  # neighbours whose bearing a message has room for
@@ -95,6 +96,7 @@ LABORATORY_2018 = {  # stand-in for seven Khepera IV (ST-67)
 # What is said of one arm.
 ARM = np.dtype(
     [
+        ("task", "i8"),  # number of the task that the arm is for, as its beacon says it
         ("known", "i8"),  # 1 if the direction is known; no angle stands for "unknown"
         ("direction", "f8"),  # rad, T_j: of the arm in the speaker's own frame when it spoke
         ("weight", "f8"),  # share of the robots that the master wants there
@@ -151,7 +153,7 @@ READING = np.dtype(
         ("moved_ahead", "f8"),  # m, by its drive in the last cycle
         ("moved_aside", "f8"),
         ("turned", "f8"),  # rad, by its drive in the last cycle
-        ("beacon", "i8"),  # number of the task that is near, 1..ARMS; 0: none
+        ("beacon", "i8"),  # number of the task that is near, 1..TASKS; 0: none
         ("beacon_range", "f8"),  # m
         ("beacon_bearing", "f8"),  # rad
         ("packet_count", "i8"),
@@ -191,4 +193,4 @@ CHASSIS = np.dtype(
 )
 
 # A task's beacon.
-BEACON = np.dtype([("x", "f8"), ("y", "f8"), ("arm", "i8")], align=True)
+BEACON = np.dtype([("x", "f8"), ("y", "f8"), ("task", "i8")], align=True)

@@ -34,7 +34,7 @@ class _Task(_Strict):
 
 class _File(_Strict):
     name: str = ""
-    spacing: float = 1.0
+    spacing: float | None = None
     paths: int = 1
     region: tuple[float, float, float, float] | None = None
     start: tuple[float, float] | None = None
@@ -42,12 +42,13 @@ class _File(_Strict):
     tasks: list[_Task] = Field(default_factory=list)
 
 
-def read_instance(path: str | Path, robots: int | None = None) -> Instance:
+def read_instance(path: str | Path, robots: int | None = None, spacing: float = 1.0) -> Instance:
     """Read an instance from a .toml, .json or .csv file.
 
     Args:
         path: of the file.
         robots: the swarm, all robots able to do everything; for files that list no teams.
+        spacing: one hop of an arm, m, for files that do not say.
 
     Raises:
         InstanceError: naming file, task or field, and what is wrong.
@@ -62,10 +63,10 @@ def read_instance(path: str | Path, robots: int | None = None) -> Instance:
         raise InstanceError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, csv.Error) as error:
         raise InstanceError(f"{path}: is no {path.suffix[1:].upper()} file: {error}") from error
-    return instance_of(content, str(path), robots)
+    return instance_of(content, str(path), robots, spacing)
 
 
-def instance_of(content: Any, source: str = "instance", robots: int | None = None) -> Instance:
+def instance_of(content: Any, source: str = "instance", robots: int | None = None, spacing: float = 1.0) -> Instance:
     """Check an instance given as plain values, as a file would hold it. Raises as ``read_instance``."""
     if not content:
         raise InstanceError(f"{source}: is empty: list the tasks, each with name, x and y, and the teams")
@@ -88,7 +89,7 @@ def instance_of(content: Any, source: str = "instance", robots: int | None = Non
         region=found.region or _around(tasks, found.start),
         start=found.start or _middle(found.region or _around(tasks, None)),
         priorities=tuple((earlier, task.name) for task in found.tasks for earlier in task.after),
-        spacing=found.spacing,
+        spacing=spacing if found.spacing is None else found.spacing,
         paths=found.paths,
     )
     return checked(instance, source)

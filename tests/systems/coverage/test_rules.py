@@ -142,7 +142,7 @@ def test_arms_are_drawn_by_weight():
     counts = np.zeros(3)
     for seed in range(40):
         state = swarm(setting=5, robots=16, seed=seed, behaviour={"arm_choice": "draw"})
-        state.charts.wanted[:, :3] = (1.0, 2.0, 3.0)
+        state.charts.slots["wanted"][:, 0, :3] = (1.0, 2.0, 3.0)
         advance(state, 8)
         counts += np.bincount(state.memories.arm[1:], minlength=4)[1:4]
     assert counts / counts.sum() == pytest.approx([1 / 6, 1 / 3, 1 / 2], abs=0.06)
@@ -177,11 +177,11 @@ def test_counts_in_which_errors_make_up_for_each_other_correct_nothing():
     memory.corrected, memory.agreed, memory.correction = 0, 0, 7
     for cycle, counts in enumerate([(5, 6, 4), (6, 5, 4), (5, 6, 4), (5, 5, 4), (5, 6, 4)]):
         memory.arms["count"][:3] = counts
-        correct_arms(memory, table, chart, 300 + cycle)
+        correct_arms(memory, table, chart, chart.slots[0], 300 + cycle)
     assert memory.correction == 7
     for cycle in range(3):
         memory.arms["count"][:3] = (5, 6, 4)
-        correct_arms(memory, table, chart, 305 + cycle)
+        correct_arms(memory, table, chart, chart.slots[0], 305 + cycle)
     assert memory.correction == 8 and memory.arms["leave"][:3].tolist() == [0.0, 1 / 6, 0.0]
 
 
@@ -190,7 +190,7 @@ def test_word_of_a_task_goes_through_robots_of_other_arms():
     state = swarm(line(4), tasks={"count": 2, "distance": 6.0, "stop": True})
     stay(state, 10)
     state.memories.arm[1:] = (2, 2, 1)
-    state.beacons.x[0], state.beacons.y[0], state.beacons.arm[0] = 6.0, 0.0, 1
+    state.beacons.x[0], state.beacons.y[0], state.beacons.task[0] = 6.0, 0.0, 1
     stay(state, 10)
     assert state.memories[0].arms["reached"][:2].tolist() == [57, 0]
     assert state.memories.stage[3] == Stage.HOLDING and (state.memories.stage[1:3] != Stage.HOLDING).all()

@@ -19,6 +19,6 @@ def sense_beacon(body, beacons, reach, reading):
         square = dx * dx + dy * dy
         if square <= nearest:
             nearest = square
-            reading.beacon = beacons[k].arm
+            reading.beacon = beacons[k].task
             reading.beacon_range = math.sqrt(square)
             reading.beacon_bearing = wrapped(math.atan2(dy, dx) - body.heading)

@@ -103,6 +103,7 @@ def hear(packet, message, entry):
     packet.counted = message.counted
     packet.arm_count = message.arm_count
     for k in range(message.arm_count):
+        packet.arms[k].task = message.arms[k].task
         packet.arms[k].known = message.arms[k].known
         packet.arms[k].direction = message.arms[k].direction
         packet.arms[k].weight = message.arms[k].weight

@@ -20,6 +20,7 @@ from formicarium.systems.coverage.memory import Mode, Stage
 from formicarium.systems.coverage.messages import speak
 
 SAFE = 2  # place of "safe" among the variants
+FLOCKING = 1  # place of "flocking" among the kinds of rendez-vous
 
 
 @compiled
@@ -82,6 +83,9 @@ def gather(reading, memory, command, table, footbot):
     """Draw near to all others, unless there is no way to the master any more."""
     if memory.linked == 1:
         memory.stage = Stage.GATHERING
+        if table.rendezvous == FLOCKING:
+            flock(reading, memory, command, table, footbot.speed)
+            return
         press(reading, memory, command, table, memory.spacing, 0, footbot.speed)
     else:
         be_lost(reading, memory, command, table, footbot)

@@ -7,9 +7,13 @@ from formicarium.compiled import compiled
 from formicarium.control.bearings import carried_over, carried_over_printed
 from formicarium.systems.coverage.arms import chance
 from formicarium.systems.coverage.forces import clear, press, wish
+from formicarium.systems.coverage.listening import round_of
 from formicarium.systems.coverage.memory import Mode, Stage
 
 BUZZ = 1  # place of "buzz" among the variants
+RETURN = 1  # place of "return" among what strays do
+SWEEP_MIDDLE = 0.65  # of delta; down to 0.2 of it a lone robot comes within 0.5 m of any task nearer than itself
+SWEEP_SWING = 0.45  # of delta, each way; 1.1 of 2.4 m is within the safe variant's longest link
 # How a spiral opens in the authors' files, by number modulo 20 (ST-40).
 BUZZ_SPIRALS = (
     *(0.17, 0.50, 0.73, 0.13, 0.12, 0.21, 0.43, 0.48, 0.61, 0.18),
@@ -29,7 +33,7 @@ def find_reference(reading, memory):
         packet = reading.packets[k]
         if packet.linked == 0 or packet.named == 0 or packet.arm_count == 0:
             continue
-        if packet.arms[0].known == 0:
+        if packet.arms[0].known == 0 or round_of(packet.epoch) != round_of(memory.epoch):
             continue
         if packet.hops == 0:
             best = k
@@ -74,15 +78,14 @@ def erupt(reading, memory, command, table, chart, footbot):
     """
     if memory.reference_place >= 0 and memory.arm > 0:
         note_alignment(memory, table)
-    in_place = memory.aligned == 1 or reading.beacon == memory.arm or memory.stage == Stage.HOLDING
     stops = chart.stop == 1 or memory.mode == Mode.HOLD
-    if stops and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and in_place:
+    if stops and memory.arm > 0 and memory.arms[memory.arm - 1].reached > 0 and is_in_place(reading, memory):
         memory.stage = Stage.HOLDING
         clear(command)
     elif memory.reference_place >= 0 and memory.arm > 0:
         if memory.aligned == 1:
             memory.stage = Stage.ALIGNED
-            press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
+            press(reading, memory, command, table, spacing_now(reading, memory, table), memory.arm, footbot.speed)
         else:
             memory.stage = Stage.SPIRALLING
             spiral(reading, memory, command, table, footbot)
@@ -91,6 +94,22 @@ def erupt(reading, memory, command, table, chart, footbot):
         press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
     else:
         be_lost(reading, memory, command, table, footbot)
+
+
+@compiled
+def spacing_now(reading, memory, table):
+    """Return delta (m): that of the phase, or while the arm sweeps, 0.2 to 1.1 of it: 0.65 + 0.45 cos(2 pi t / T)."""
+    time = reading.cycle - memory.since - table.sweep_cycles
+    if table.sweep_cycles == 0 or time < 0 or memory.arms[memory.arm - 1].reached > 0:
+        return memory.spacing
+    return memory.spacing * (SWEEP_MIDDLE + SWEEP_SWING * math.cos(2.0 * math.pi * time / table.sweep_cycles))
+
+
+@compiled
+def is_in_place(reading, memory):
+    """Tell whether one stands in line or at the arm's task, or has held already; one has an arm."""
+    at_task = reading.beacon == memory.arms[memory.arm - 1].task
+    return memory.aligned == 1 or at_task or memory.stage == Stage.HOLDING
 
 
 @compiled
@@ -134,11 +153,13 @@ def spiral(reading, memory, command, table, footbot):
 def be_lost(reading, memory, command, table, footbot):
     """Without a reference: stand for half a second, draw near to others, and without a way to the master turn back.
 
-    The authors' files only draw near.
+    The authors' files only draw near. With a way to the master a stray may follow it instead.
     """
     memory.stage = Stage.LOST
     memory.aligned = 0
     silent = reading.cycle - memory.linked_at
+    if table.strays == RETURN and memory.linked == 1 and go_to_parent(reading, memory, command, table, footbot):
+        return
     if table.variant == BUZZ or (memory.linked == 1 and reading.packet_count > 0):
         press(reading, memory, command, table, table.close_spacing, 0, footbot.speed)
     elif silent <= table.fresh_cycles:
@@ -149,3 +170,14 @@ def be_lost(reading, memory, command, table, footbot):
         wish(command, memory.way_back, footbot.speed)
     else:
         clear(command)
+
+
+@compiled
+def go_to_parent(reading, memory, command, table, footbot):
+    """Go towards the next robot on the way to the master; tell whether it was heard and is not at hand already."""
+    for k in range(reading.packet_count):
+        packet = reading.packets[k]
+        if packet.sender == memory.parent and packet.range > table.separation_range:
+            wish(command, packet.bearing, footbot.speed)
+            return True
+    return False

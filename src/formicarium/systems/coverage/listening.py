@@ -7,7 +7,32 @@ from formicarium.compiled import compiled
 from formicarium.systems.coverage.memory import Stage
 
 BUZZ = 1  # place of "buzz" among the variants
+PHASES = 4  # epochs of a round: flock, erupt, hold, gather
 BUZZ_RESET = 100  # cycles between two resets of the gradient in the authors' files
+
+
+@compiled
+def round_of(epoch):
+    """Return the number of the round of four phases that an epoch belongs to: a slot, or another try at one."""
+    return max(0, epoch - 1) // PHASES
+
+
+@compiled
+def forget_arms(memory):
+    """Begin a round: nothing said of the arms before is true of those to come."""
+    memory.arm = 0
+    memory.arm_count = 0
+    memory.correction = 0
+    memory.drawn = 0
+    for k in range(len(memory.arms)):
+        arm = memory.arms[k]
+        arm.task = 0
+        arm.known = 0
+        arm.direction = 0.0
+        arm.weight = 0.0
+        arm.leave = 0.0
+        arm.count = 0
+        arm.reached = 0
 
 
 @compiled
@@ -33,20 +58,28 @@ def carry(reading, memory):
 
 @compiled
 def hear_phase(reading, memory):
-    """Take over the newest phase that anybody speaks of, and the newest word on the arms; both spread as a flood."""
+    """Take over the newest phase that anybody speaks of, and the newest word on the arms; both spread as a flood.
+
+    Whoever has not heard of a new round yet speaks of arms that are no more.
+    """
     for k in range(reading.packet_count):
         packet = reading.packets[k]
         if packet.epoch > memory.epoch:
+            if round_of(packet.epoch) != round_of(memory.epoch):
+                forget_arms(memory)
             memory.epoch = packet.epoch
             memory.mode = packet.mode
             memory.spacing = packet.spacing
             memory.since = reading.cycle
             memory.stage = Stage.WAITING
             memory.aligned = 0
-        if packet.arm_count > 0 and (packet.correction > memory.correction or memory.arm_count == 0):
+        if packet.arm_count == 0 or round_of(packet.epoch) != round_of(memory.epoch):
+            continue
+        if packet.correction > memory.correction or memory.arm_count == 0:
             memory.arm_count = packet.arm_count
             memory.correction = packet.correction
             for arm in range(packet.arm_count):
+                memory.arms[arm].task = packet.arms[arm].task
                 memory.arms[arm].weight = packet.arms[arm].weight
                 memory.arms[arm].leave = packet.arms[arm].leave
 
@@ -127,8 +160,9 @@ def count_behind(reading, memory):
         if packet.parent == reading.identity:
             memory.counted += packet.counted
             memory.farthest = max(memory.farthest, packet.farthest)
-            for arm in range(min(memory.arm_count, packet.arm_count)):
-                memory.arms[arm].count += packet.arms[arm].count
+            if round_of(packet.epoch) == round_of(memory.epoch):
+                for arm in range(min(memory.arm_count, packet.arm_count)):
+                    memory.arms[arm].count += packet.arms[arm].count
 
 
 @compiled
@@ -143,8 +177,8 @@ def hear_reached(reading, memory, table):
         most = memory.arms[arm].reached
         for k in range(reading.packet_count):
             packet = reading.packets[k]
-            if arm < packet.arm_count:
+            if arm < packet.arm_count and round_of(packet.epoch) == round_of(memory.epoch):
                 most = max(most, packet.arms[arm].reached)
         memory.arms[arm].reached = max(0, most - 1)
-    if memory.arm > 0 and reading.beacon == memory.arm and memory.linked == 1:
+    if memory.arm > 0 and reading.beacon == memory.arms[memory.arm - 1].task and memory.linked == 1:
         memory.arms[memory.arm - 1].reached = table.reached_hops

@@ -1,14 +1,15 @@
-"""The master: calls out the phases, knows the tasks in the frame in which it started, and corrects the arms."""
+"""The master: calls out the phases of each slot, knows tasks in the frame in which it started, corrects the arms."""
 
 import math
 
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.systems.coverage.forces import clear, wish
+from formicarium.systems.coverage.listening import forget_arms
 from formicarium.systems.coverage.memory import Mode, Stage
 
 QUOTA = 1  # place of "quota" among the choices
-TOUR = 1  # place of "tour" among the programmes
+ENDLESS = 0  # place of "erupt" among the programmes: the one without further phases
 
 
 @compiled
@@ -21,68 +22,111 @@ def call_out(memory, mode, spacing, cycle):
 
 
 @compiled
+def begin_slot(memory, table, cycle):
+    """Begin a slot, or begin it again, from where the swarm is: it flocks, and the arms so far are forgotten."""
+    forget_arms(memory)
+    memory.agreed = 0
+    memory.held = 0
+    for k in range(len(memory.tally)):
+        memory.tally[k] = 0
+    call_out(memory, Mode.FLOCK, table.spacing, cycle)
+
+
+@compiled
 def lead(reading, memory, command, table, chart, footbot):
     """Do the master's part in the present phase, and go on to the next when its time has come."""
     cycle = reading.cycle
     clear(command)
-    if memory.counted == chart.robots:
+    slot = chart.slots[memory.slot]
+    take_census(memory, table, chart, cycle)
+    if memory.counted == memory.crew:
         memory.all_heard = cycle
     if memory.epoch == 0:
-        flocks = chart.programme == TOUR and chart.travel == 1
+        flocks = chart.programme != ENDLESS and slot.travel == 1
         call_out(memory, Mode.FLOCK if flocks else Mode.ERUPT, table.spacing, cycle)
     elif memory.mode == Mode.FLOCK:
-        if travel(reading, memory, command, table, chart, footbot):
+        if travel(reading, memory, command, table, chart, slot, footbot):
             call_out(memory, Mode.ERUPT, table.spacing, cycle)
     elif memory.mode == Mode.ERUPT:
-        if chart.programme == TOUR and (all_reached(memory) or cycle - memory.since > chart.erupt_cycles):
+        if chart.programme != ENDLESS and (all_reached(memory) or cycle - memory.since > chart.erupt_cycles):
             call_out(memory, Mode.HOLD, table.spacing, cycle)
     elif memory.mode == Mode.HOLD:
         if all_reached(memory):
             memory.held += 1
-        if memory.held >= chart.hold_cycles or cycle - memory.since > chart.erupt_cycles:
+        if memory.held >= slot.hold_cycles or cycle - memory.since > slot.hold_limit:
             call_out(memory, Mode.GATHER, table.gather_spacing, cycle)
     elif memory.mode == Mode.GATHER:
-        if is_compact(memory, table, chart) or cycle - memory.since > chart.gather_cycles:
-            memory.done = 1
+        if is_compact(memory, table) or cycle - memory.since > chart.gather_cycles:
+            if memory.held < slot.hold_cycles and memory.tries + 1 < chart.attempts:
+                memory.tries += 1
+                begin_slot(memory, table, cycle)
+            elif memory.slot + 1 < chart.slot_count:
+                memory.tries = 0
+                memory.slot += 1
+                begin_slot(memory, table, cycle)
+            else:
+                memory.done = 1
     memory.stage = Stage.FLOCKING if memory.mode == Mode.FLOCK else Stage.WAITING
     if memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
-        point_out(memory, chart)
+        point_out(memory, slot)
         if table.arm_choice == QUOTA and not all_reached(memory):
-            correct_arms(memory, table, chart, cycle)
+            correct_arms(memory, table, chart, slot, cycle)
 
 
 @compiled
-def point_out(memory, chart):
+def take_census(memory, table, chart, cycle):
+    """Reckon with as many robots as have been counted of late; who comes back is one of them again.
+
+    Counted in two cycles running: who changes its way to the master may be counted twice in one.
+    """
+    counted = min(memory.counted, memory.before, chart.robots)
+    memory.before = memory.counted
+    if memory.crew == 0:
+        memory.crew = chart.robots
+        memory.census = cycle
+    memory.most = max(memory.most, counted)
+    if table.census_cycles == 0:
+        return
+    memory.crew = max(memory.crew, counted)
+    if cycle - memory.census >= table.census_cycles:
+        memory.crew = memory.most
+        memory.most = 0
+        memory.census = cycle
+
+
+@compiled
+def point_out(memory, slot):
     """Work out where the tasks are by one's own odometry."""
     if memory.arm_count == 0:
         memory.correction += 1
-    memory.arm_count = chart.task_count
-    for k in range(chart.task_count):
-        ahead = chart.task_ahead[k] - memory.way_ahead
-        aside = chart.task_aside[k] - memory.way_aside
+    memory.arm_count = slot.task_count
+    for k in range(slot.task_count):
+        ahead = slot.task_ahead[k] - memory.way_ahead
+        aside = slot.task_aside[k] - memory.way_aside
+        memory.arms[k].task = slot.task[k]
         memory.arms[k].known = 1
         memory.arms[k].direction = wrapped(math.atan2(aside, ahead) - memory.facing)
         if memory.correction == 1:
-            memory.arms[k].weight = chart.wanted[k]
+            memory.arms[k].weight = slot.wanted[k]
 
 
 @compiled
-def travel(reading, memory, command, table, chart, footbot):
+def travel(reading, memory, command, table, chart, slot, footbot):
     """Go to the point of deployment and wait for stragglers on the way; tell whether it is reached with everybody."""
-    ahead = chart.point_ahead - memory.way_ahead
-    aside = chart.point_aside - memory.way_aside
+    ahead = slot.point_ahead - memory.way_ahead
+    aside = slot.point_aside - memory.way_aside
     together = memory.farthest <= table.compact_range and reading.cycle - memory.all_heard <= table.keep_cycles
     if ahead * ahead + aside * aside <= table.arrival_range * table.arrival_range:
-        return is_compact(memory, table, chart) or reading.cycle - memory.since > chart.erupt_cycles
+        return is_compact(memory, table) or reading.cycle - memory.since > chart.erupt_cycles
     if together:
         wish(command, wrapped(math.atan2(aside, ahead) - memory.facing), table.leader_share * footbot.speed)
     return False
 
 
 @compiled
-def is_compact(memory, table, chart):
+def is_compact(memory, table):
     """Tell whether everybody reports a short way."""
-    return memory.counted == chart.robots and memory.farthest <= table.compact_range
+    return memory.counted == memory.crew and memory.farthest <= table.compact_range
 
 
 @compiled
@@ -95,21 +139,21 @@ def all_reached(memory):
 
 
 @compiled
-def quota(chart, k):
+def quota(memory, slot, k):
     """Return how many backbone robots arm k should have: shares of the weights, the rest to the first arms."""
     total = 0.0
-    for arm in range(chart.task_count):
-        total += chart.wanted[arm]
-    crew = chart.robots - 1
+    for arm in range(slot.task_count):
+        total += slot.wanted[arm]
+    crew = memory.crew - 1
     given = 0
-    for arm in range(chart.task_count):
-        given += int(crew * chart.wanted[arm] / total)
-    own = int(crew * chart.wanted[k] / total)
+    for arm in range(slot.task_count):
+        given += int(crew * slot.wanted[arm] / total)
+    own = int(crew * slot.wanted[k] / total)
     return own + 1 if k < crew - given else own
 
 
 @compiled
-def note_tally(memory, chart):
+def note_tally(memory):
     """Note for how many cycles running everybody was counted, arm by arm the same.
 
     Who changes its way to the master is counted twice or not at all meanwhile, and such errors may make up for each
@@ -121,29 +165,29 @@ def note_tally(memory, chart):
         total += memory.arms[k].count
         same = same and memory.arms[k].count == memory.tally[k]
         memory.tally[k] = memory.arms[k].count
-    memory.agreed = memory.agreed + 1 if same and total == chart.robots - 1 else 0
+    memory.agreed = memory.agreed + 1 if same and total == memory.crew - 1 else 0
 
 
 @compiled
-def correct_arms(memory, table, chart, cycle):
+def correct_arms(memory, table, chart, slot, cycle):
     """Ask some robots of arms that are too strong to draw again among those that are too weak.
 
     Only when everybody is counted and has an arm, and not later than ``correction_limit`` into the eruption.
     """
-    note_tally(memory, chart)
+    note_tally(memory)
     if cycle - memory.since > chart.correction_limit or cycle - memory.corrected < table.correction_cycles:
         return
     if memory.agreed < table.agreed_cycles:
         return
     wrong = False
     for k in range(memory.arm_count):
-        wrong = wrong or memory.arms[k].count != quota(chart, k)
+        wrong = wrong or memory.arms[k].count != quota(memory, slot, k)
     if not wrong:
         return
     memory.corrected = cycle
     memory.correction += 1
     for k in range(memory.arm_count):
         arm = memory.arms[k]
-        surplus = arm.count - quota(chart, k)
+        surplus = arm.count - quota(memory, slot, k)
         arm.weight = max(0.0, -1.0 * surplus)
         arm.leave = max(0.0, surplus / max(1.0, 1.0 * arm.count))

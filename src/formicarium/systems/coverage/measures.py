@@ -11,6 +11,7 @@ from formicarium.observers.graphs import GRAPHS, Graph, count_cut_robots, find_l
 from formicarium.observers.prominences import TARGETS, see_axis
 from formicarium.observers.spectrum import lambda_2
 from formicarium.robots.footbot import ARMS
+from formicarium.systems.coverage.credit import give_credit, mission_columns
 from formicarium.systems.coverage.memory import Mode, Stage
 from formicarium.trial.events import write_event
 
@@ -31,6 +32,7 @@ class EventKind(IntEnum):
     UNCOVERED = 7  # subject: arm; value: cycles for which it was covered
     DIED = 8
     DONE = 9  # the master's programme is over
+    WORKED = 10  # a task of a mission has been worked on for as long as it takes; subject: task; value: cycles
 
 
 class Role(IntEnum):
@@ -48,7 +50,6 @@ class Role(IntEnum):
 
 
 SEEN = np.dtype([("role", "i8"), ("epoch", "i8"), ("arm", "i8")], align=True)
-TASK_SEEN = np.dtype([("covered", "i8"), ("since", "i8"), ("cycles", "i8"), ("first", "i8")], align=True)
 SURVEY = np.dtype(
     [
         ("master", "i8"),  # its body
@@ -113,6 +114,8 @@ def note(state):
             length = int(1000.0 * axis.target[target] + 0.5)
             write_event(clock, state.events, EventKind.TARGET, 0, k + 1, length, axis.first[target])
         note_task(state, k)
+        if give_credit(state, k):
+            write_event(clock, state.events, EventKind.WORKED, 0, k + 1, state.tasks[k].needed, 0)
     note_structure(state)
     if state.memories[survey.master].done == 1 and clock.finished == 0:
         clock.finished = 1
@@ -231,6 +234,8 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     cycle_time = float(state.world.settings[0].cycle_time)
     cycles = max(1, int(state.clock[0].cycle))
     survey = state.survey[0]
+    chart = state.charts[survey.master]
+    last_slot = chart.slots[int(chart.slot_count) - 1]
     row: dict[str, int | float | str | None] = {"duration_s": round(cycles * cycle_time, 6)}
     for graph in Graph:
         c = state.connections[graph]
@@ -259,12 +264,16 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         "died": int((events["kind"] == EventKind.DIED).sum()),
         "done": int(state.clock[0].finished),
         "held_s": round(int(state.memories[survey.master].held) * cycle_time, 6),
-        "held": int(state.memories[survey.master].held >= max(1, state.charts[survey.master].hold_cycles)),
+        "held": int(state.memories[survey.master].held >= max(1, last_slot.hold_cycles)),
     }
     for mode, name in ((Mode.ERUPT, "erupt"), (Mode.HOLD, "hold"), (Mode.GATHER, "gather")):
         calls = events[(events["kind"] == EventKind.PHASE) & (events["subject"] == mode)]
         row[f"{name}_called_s"] = seconds(calls["cycle"].min(), cycle_time) if len(calls) else None
         row[f"{name}_spread_s"] = float(np.ptp(calls["cycle"])) * cycle_time if len(calls) else None
+    if state.tasks[0].needed > 0:
+        master = state.robots[survey.master].identity
+        calls = events[(events["kind"] == EventKind.PHASE) & (events["robot"] == master)]
+        row |= mission_columns(state, [(int(call["cycle"]), int(call["subject"])) for call in calls])
     return row
 
 

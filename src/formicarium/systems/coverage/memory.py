@@ -8,10 +8,11 @@ from formicarium.robots.footbot import ARM, ARMS
 
 NEVER = -1_000_000  # cycle long before the trial
 LINKS = 32  # links that a robot can keep at once (safe)
+SLOTS = 16  # of a mission, at most
 
 
 class Mode(IntEnum):
-    """The phases that the master calls out; an epoch is one call."""
+    """The phases that the master calls out; an epoch is one call, four are a round, one slot of a mission."""
 
     WAIT = 0  # nothing heard yet
     FLOCK = 1
@@ -91,29 +92,47 @@ MEMORY = np.dtype(
         ("corrected", "i8"),  # cycle of the last correction of the arms
         ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
         ("agreed", "i8"),  # cycles for which that was everybody and has not changed
-        ("held", "i8"),  # cycles for which all tasks were held
+        ("slot", "i8"),  # the plan's, that it is at
+        ("tries", "i8"),  # of it before
+        ("held", "i8"),  # cycles for which all tasks of the slot were held
+        ("crew", "i8"),  # how many robots it reckons with, itself too
+        ("before", "i8"),  # counted in the last cycle
+        ("most", "i8"),  # counted in two cycles running since the last census
+        ("census", "i8"),  # cycle of that
         ("all_heard", "i8"),  # cycle at which everybody was last counted
         ("done", "i8"),  # 1 when the programme is over
     ],
     align=True,
 )
 
-# What a robot is told before the trial. Only the master is told of tasks: by way, in the frame in which it starts.
+# Tasks that are done at the same time round one point: places by way, in the frame in which the master starts.
+SLOT = np.dtype(
+    [
+        ("point_ahead", "f8"),  # m, point of deployment
+        ("point_aside", "f8"),
+        ("travel", "i8"),  # 1 if the swarm flocks there first
+        ("task_count", "i8"),
+        ("task", "i8", ARMS),  # number of each arm's task
+        ("task_ahead", "f8", ARMS),  # m
+        ("task_aside", "f8", ARMS),
+        ("wanted", "f8", ARMS),  # weight of each arm
+        ("hold_cycles", "i8"),  # for which all tasks are held at once
+        ("hold_limit", "i8"),  # cycles after which the swarm gathers whether they were or not
+    ],
+    align=True,
+)
+
+# What a robot is told before the trial. Only the master is told of tasks.
 CHART = np.dtype(
     [
         ("robots", "i8"),
         ("programme", "i8"),
-        ("task_count", "i8"),
-        ("task_ahead", "f8", ARMS),  # m
-        ("task_aside", "f8", ARMS),
-        ("wanted", "f8", ARMS),  # weight of each arm
-        ("point_ahead", "f8"),  # m, point of deployment
-        ("point_aside", "f8"),
-        ("travel", "i8"),  # 1 if the point is elsewhere
+        ("slot_count", "i8"),
+        ("slots", SLOT, SLOTS),
         ("stop", "i8"),
-        ("hold_cycles", "i8"),
         ("erupt_cycles", "i8"),
         ("gather_cycles", "i8"),
+        ("attempts", "i8"),  # at a slot
         ("correction_limit", "i8"),  # cycles
         ("cycle_time", "f8"),
     ],

@@ -4,7 +4,7 @@ from formicarium.compiled import compiled
 from formicarium.robots.footbot import ENTRIES
 
 HEAD_BYTES = 54  # eleven small numbers of one byte, sequence of three, five numbers of eight
-ARM_BYTES = 27  # three numbers of eight bytes, three of one
+ARM_BYTES = 27  # three numbers of eight bytes, three of one: the task's goes with whether the direction is known
 ENTRY_BYTES = 9  # a receiver's number and a bearing
 
 
@@ -38,6 +38,7 @@ def speak(reading, memory, command, longest):
     message.counted = memory.counted
     message.arm_count = memory.arm_count
     for k in range(memory.arm_count):
+        message.arms[k].task = memory.arms[k].task
         message.arms[k].known = memory.arms[k].known
         message.arms[k].direction = memory.arms[k].direction
         message.arms[k].weight = memory.arms[k].weight

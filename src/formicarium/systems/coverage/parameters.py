@@ -12,9 +12,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from formicarium.robots.footbot import ARMS, LABORATORY_2018, NOTEBOOK_2018, PACKETS, Footbot
+from formicarium.systems.coverage.mission import MissionTable, check_mission
 from formicarium.tables import Table, number
 
-PROGRAMMES = ("erupt", "tour")
+PROGRAMMES = ("erupt", "tour", "mission")
 VARIANTS = ("faithful", "buzz", "safe")
 FORCES = ("corrected", "printed", "smooth")
 CHOICES = ("draw", "quota", "blocks")
@@ -39,8 +40,11 @@ class SwarmTable(Table):
 class TaskTable(Table):
     """Where the tasks are and what the master does about them."""
 
-    programme: Literal["erupt", "tour"] = number(
-        "erupt", "1", "erupt: from the first step to the end [files]; tour: flock, erupt, hold, gather [paper III-C]"
+    programme: Literal["erupt", "tour", "mission"] = number(
+        "erupt",
+        "1",
+        "erupt: from the first step to the end [files]; tour: flock, erupt, hold, gather [paper III-C]; mission: the "
+        "same for each slot of a plan [ST-48]",
     )
     pattern: Literal["star", "random"] = number("star", "1", "star: regular; random: uniform in a square [notebook]")
     count: int = number(1, "1", "T, tasks, an arm each [paper]", ge=1, le=ARMS)
@@ -51,8 +55,13 @@ class TaskTable(Table):
     travel_direction: float = number(0.0, "rad", "tour: in this direction, in the master's frame [choice]")
     stop: bool = number(True, "1", "arms stop at their tasks [choice ST-43]; off: they stretch on [files]")
     hold_time: float = number(20.0, "s", "tour: tasks are held for so long, all at once [choice]", ge=0)
-    erupt_limit: float = number(600.0, "s", "tour: then arms that have reached their tasks hold them [choice]", gt=0)
-    gather_limit: float = number(120.0, "s", "tour: a rendez-vous ends by then [choice ST-31]", gt=0)
+    erupt_limit: float = number(
+        600.0, "s", "then arms that have reached their tasks hold them, in a tour or mission [choice]", gt=0
+    )
+    attempts: int = number(
+        1, "1", "at a slot of a mission, while its tasks were not held all at once [choice ST-72]", ge=1, le=9
+    )
+    gather_limit: float = number(120.0, "s", "a rendez-vous ends by then, in a tour or mission [choice ST-31]", gt=0)
 
 
 class BehaviourTable(Table):
@@ -86,6 +95,26 @@ class BehaviourTable(Table):
         60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
     )
 
+    census_cycles: int = number(
+        0,
+        "cycles",
+        "the master reckons with no more robots than it has counted in so long; 0: with all, for ever [choice ST-71]",
+        ge=0,
+    )
+    sweep_cycles: int = number(
+        0,
+        "cycles",
+        "an arm that has not found its task after so long draws in to a fifth of its delta and stretches beyond it, "
+        "once in so long, so that a task between two robots is found; 0: never [files]",
+        ge=0,
+    )
+    strays: Literal["close", "return"] = number(
+        "close",
+        "1",
+        "a robot of a known way and no reference: close: draws near to others [files]; return: goes along the way to "
+        "the master, where it finds one [choice]",
+    )
+
     arm_choice: Literal["draw", "quota", "blocks"] = number(
         "draw",
         "1",
@@ -115,6 +144,12 @@ class BehaviourTable(Table):
         "corrected", "1", "printed: separation weakens as robots touch, sums are not divided [ST-30]"
     )
     compact_range: float = number(1.5, "m", "r / 2: the swarm is compact if no gradient is longer [choice ST-30]", gt=0)
+    rendezvous: Literal["potential", "flocking"] = number(
+        "potential",
+        "1",
+        "potential: each draws near to whom it hears, so groups can stay apart [paper, ST-31]; flocking: by equation 3 "
+        "to the master, which stands [choice]",
+    )
     leader_share: float = number(0.6, "1", "of top speed, the master's in flocking [choice ST-30]", gt=0, le=1)
     arrival_range: float = number(0.3, "m", "of the master's odometry at the point of deployment [choice ST-30]", gt=0)
 
@@ -140,6 +175,8 @@ WORDS = {
     "force": FORCES,
     "arm_choice": CHOICES,
     "flocking": ("corrected", "printed"),
+    "rendezvous": ("potential", "flocking"),
+    "strays": ("close", "return"),
 }
 
 
@@ -159,6 +196,7 @@ class CoverageParameters(BaseModel):
 
     swarm: SwarmTable = Field(default_factory=SwarmTable)
     tasks: TaskTable = Field(default_factory=TaskTable)
+    mission: MissionTable = Field(default_factory=MissionTable)
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
@@ -171,6 +209,12 @@ class CoverageParameters(BaseModel):
                 f"behaviour.spacing = {self.behaviour.spacing:g} m is more than footbot.radio_range = "
                 f"{self.footbot.radio_range:g} m: nobody would hear anybody. Make spacing smaller or radio_range larger"
             )
+        return self
+
+    @model_validator(mode="after")
+    def mission_fits(self) -> "CoverageParameters":
+        """Refuse a plan that cannot be flown."""
+        check_mission(self.mission, self.tasks.programme, self.swarm.robots)
         return self
 
 

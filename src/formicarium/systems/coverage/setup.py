@@ -12,7 +12,8 @@ from formicarium.physics.world import World, make_world
 from formicarium.robots.footbot import CHASSIS, COMMAND, IDENTITIES, READING
 from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
-from formicarium.systems.coverage.measures import SEEN, SURVEY, TASK_SEEN
+from formicarium.systems.coverage.credit import TASK_SEEN
+from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
 from formicarium.trial.events import CLOCK
@@ -101,7 +102,7 @@ def begin(
         connections=make_connections(),
         places=records(PLACE, count),
         axes=make_axes(arena),
-        tasks=records(TASK_SEEN, len(arena.beacons)),
+        tasks=make_tasks(p, len(arena.beacons)),
         survey=make_survey(p, crew.robots),
         seen=make_seen(count),
         laplacian=np.zeros((count, count)),
@@ -174,17 +175,29 @@ def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.
         if robot.key != 0:
             continue
         chart.programme = PROGRAMMES.index(t.programme)
-        chart.task_count = t.count
-        for k, beacon in enumerate(arena.beacons):
-            chart.task_ahead[k], chart.task_aside[k] = beacon.x, beacon.y
-            chart.wanted[k] = math.hypot(beacon.x - arena.point[0], beacon.y - arena.point[1])
-        chart.point_ahead, chart.point_aside = arena.point
-        chart.travel = int(t.programme == "tour" and t.travel > 0.0)
-        chart.hold_cycles = round(t.hold_time / cycle_time)
+        chart.slot_count = len(arena.sites)
+        for number in range(len(arena.sites)):
+            write_slot(chart.slots[number], p, arena, number)
+        chart.attempts = t.attempts
         chart.erupt_cycles = round(t.erupt_limit / cycle_time)
         chart.gather_cycles = round(t.gather_limit / cycle_time)
         chart.correction_limit = round(p.behaviour.correction_limit / cycle_time)
     return charts
+
+
+def write_slot(slot: np.record, p: CoverageParameters, arena: Arena, number: int) -> None:
+    """Write what the master is told of one slot; without a plan arms are wanted by the distances of their tasks."""
+    site, t = arena.sites[number], p.tasks
+    planned = p.mission.slots[number] if p.mission.slots else None
+    slot.point_ahead, slot.point_aside = site.point
+    slot.travel = int(planned is not None or (t.programme == "tour" and t.travel > 0.0))
+    slot.task_count = len(site.tasks)
+    for k, beacon in enumerate(arena.beacons[site.tasks.start : site.tasks.stop]):
+        slot.task[k], slot.task_ahead[k], slot.task_aside[k] = beacon.task, beacon.x, beacon.y
+        distance = math.hypot(beacon.x - site.point[0], beacon.y - site.point[1])
+        slot.wanted[k] = planned.tasks[k].robots if planned else distance
+    slot.hold_cycles = round((planned.duration if planned else t.hold_time) / p.swarm.cycle_time)
+    slot.hold_limit = round(t.erupt_limit / p.swarm.cycle_time) + (slot.hold_cycles if planned else 0)
 
 
 def make_connections() -> np.recarray:
@@ -197,15 +210,25 @@ def make_connections() -> np.recarray:
 def make_axes(arena: Arena) -> np.recarray:
     """Return the arms' axes, from the point of deployment through the tasks, with Table I's distances as targets."""
     axes = records(AXIS, len(arena.beacons))
-    for axis, beacon in zip(axes, arena.beacons, strict=True):
-        dx, dy = beacon.x - arena.point[0], beacon.y - arena.point[1]
+    points = [site.point for site in arena.sites for _ in site.tasks]
+    for axis, beacon, point in zip(axes, arena.beacons, points, strict=True):
+        dx, dy = beacon.x - point[0], beacon.y - point[1]
         length = math.hypot(dx, dy)
-        axis.x, axis.y = arena.point
-        axis.cosine, axis.sine = dx / length, dy / length
+        axis.x, axis.y = point
+        axis.cosine, axis.sine = (dx / length, dy / length) if length > 0.0 else (1.0, 0.0)
         axis.target[:] = (*TABLE_TARGETS, length)[:TARGETS]
         axis.since[:] = axis.first[:] = -1
         axis.longest_at = -1
     return axes
+
+
+def make_tasks(p: CoverageParameters, count: int) -> np.recarray:
+    """Return the observers' sheets for the tasks, with the work that a plan wants."""
+    tasks = records(TASK_SEEN, count)
+    tasks.done_at = -1
+    for sheet, planned in zip(tasks, p.mission.tasks):
+        sheet.needed = max(1, round(planned.duration / p.swarm.cycle_time))
+    return tasks
 
 
 def make_survey(p: CoverageParameters, robots: np.recarray) -> np.recarray:

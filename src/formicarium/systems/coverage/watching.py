@@ -38,7 +38,9 @@ def scene_of(parameters: CoverageParameters, state: Any) -> Scene:
     high = np.maximum(points.max(axis=0), bodies.max(axis=0) + 1.0) + 1.5
     corners = np.array([(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])])
     reach = parameters.footbot.beacon_range
-    tasks = [Polygon(circle(b.x, b.y, reach), COLOURS[b.arm - 1]) for b in state.beacons]
+    slots = state.charts[state.survey[0].master].slots
+    arms = [k for slot in slots for k in range(int(slot.task_count))]
+    tasks = [Polygon(circle(b.x, b.y, reach), COLOURS[k]) for b, k in zip(state.beacons, arms, strict=True)]
     ranges = (("radio", parameters.footbot.radio_range), ("beacon", reach))
     return Scene(
         (Polygon(corners, f"{FLOOR}0.90"), *tasks),
@@ -84,7 +86,7 @@ def outcome_row(parameters: CoverageParameters, state: Any, events: np.ndarray) 
     """Return the row of a finished trial with the numbers that say which trial it was."""
     return {
         "robots": parameters.swarm.robots,
-        "tasks": parameters.tasks.count,
+        "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
         "spacing_m": parameters.behaviour.spacing,
         "variant": parameters.behaviour.variant,
     } | outcome(state, events)
@@ -173,6 +175,8 @@ def tell(event: Any) -> str:
         case EventKind.PHASE:
             return f"robot {robot} hears of phase {value}: {Mode(subject).name.lower()}"
         case EventKind.ARM:
+            if subject == 0:
+                return f"robot {robot} leaves arm {value}"
             return f"robot {robot} joins arm {subject}" + (f", leaves arm {value}" if value else "")
         case EventKind.ROLE:
             return f"robot {robot} becomes {ROLES[Role(value)]}"
@@ -186,6 +190,8 @@ def tell(event: Any) -> str:
             return f"the task of arm {subject} is covered"
         case EventKind.UNCOVERED:
             return f"the task of arm {subject} is left after {value} cycles"
+        case EventKind.WORKED:
+            return f"task {subject} is done after {value} cycles of work"
         case EventKind.DIED:
             return f"robot {robot} dies"
         case _:
