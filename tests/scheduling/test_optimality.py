@@ -8,7 +8,7 @@ pytest.importorskip("highspy")
 
 from formicarium.scheduling import heldkarp, travel
 from formicarium.scheduling.checker import check
-from formicarium.scheduling.clock import Clock
+from formicarium.scheduling.clock import Clock, OutOfTime
 from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
 from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.model import solve_model
@@ -71,7 +71,22 @@ def test_a_programme_without_room_says_so_and_the_search_goes_on(monkeypatch):
     monkeypatch.setattr(travel, "gathering_bound", lambda *_: 0.0)
     monkeypatch.setattr(travel, "LOOK", 0)
     monkeypatch.setattr(heldkarp, "MOST_BYTES", 4 * 16**2 * 3)  # three states of the coarse programme
-    same_travel(101, Reach.PRINTED, 4)
+    had_room, run = [], heldkarp.HeldKarp.run
+    monkeypatch.setattr(heldkarp.HeldKarp, "run", lambda *all_of: had_room.append(run(*all_of)) or had_room[-1])
+    same_travel(402, Reach.PRINTED, 4)
+    assert had_room == [False]
+
+
+def test_out_of_time_below_a_target_proves_nothing(monkeypatch):
+    def stopped(search, *_):
+        search.bound = search.incumbent.target = 0.5 * search.incumbent.goal
+        raise OutOfTime
+
+    monkeypatch.setattr(travel, "gathering_bound", lambda *_: 0.0)
+    monkeypatch.setattr(travel, "LOOK", 0)
+    monkeypatch.setattr(travel.Search, "_grow", stopped)
+    answer = solve(small_instance(101, 4), "travel", "printed")
+    assert answer.ended == "time limit" and not answer.proven and answer.bound < answer.value
 
 
 @pytest.mark.parametrize("seed", range(200, 204))

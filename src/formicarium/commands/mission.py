@@ -12,7 +12,6 @@ from formicarium.commands.extras import require
 from formicarium.commands.fields import with_settings, with_values
 from formicarium.commands.known import parameters_of
 from formicarium.scheduling.instance import Instance
-from formicarium.scheduling.reading import read_instance
 from formicarium.statistics.runtimes import in_words, run_times
 from formicarium.systems.registry import System
 
@@ -22,9 +21,8 @@ ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
 SWEEP_CYCLES = 600  # an arm looks for its task between its robots after and within a minute [choice]
 CENSUS_CYCLES = 300  # half a minute: a robot that is silent for longer is not waited for [choice ST-71]
 PLANNING_TIME = 60.0  # s, then the best plan so far is flown
-REACH: Literal["inscribed"] = (
-    "inscribed"  # never farther than the circle; the paper's octagon plans arms that are too long (ST-54)
-)
+# Never farther than the circle: the paper's octagon plans arms that are too long (ST-54).
+REACH: Literal["inscribed"] = "inscribed"
 
 
 def parameters_with_map(
@@ -43,6 +41,8 @@ def parameters_with_map(
     if "mission" not in system.parameters.model_fields:
         raise UserError(f"--map {file}: {system.name} does no tasks of a map; formicarium run coverage does")
     require("scheduling", "--map")
+    from formicarium.scheduling.reading import read_instance
+
     asked: Any = parameters_of(system, setting, None, settings)
     instance = read_instance(file, robots, asked.mission.planning_range)
     refuse_what_arms_cannot_do(instance, file)

@@ -10,6 +10,7 @@ from formicarium.scheduling.families import Family
 from formicarium.scheduling.insertion import Insertions
 from formicarium.scheduling.itinerary import Itineraries
 from formicarium.scheduling.lattice import NEVER
+from formicarium.scheduling.precedence import bits_of
 from formicarium.scheduling.problem import Problem
 
 
@@ -45,7 +46,7 @@ class Branching(Descent[Node]):
         """
         super().__init__(incumbent, bound, clock)
         self.problem, self.family, self.insertions, self.ticks, self.ways = problem, family, insertions, ticks, ways
-        self._after = [sum(1 << int(t) for t in np.flatnonzero(row)) for row in related]
+        self._after = bits_of(related).tolist()
         self._mirrored = not charge_first and not related.any()
         self._everything = (1 << problem.size) - 1
 

@@ -11,8 +11,9 @@ import numpy as np
 from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.descent import CAREFUL, Descent, Incumbent
 from formicarium.scheduling.heldkarp import HeldKarp
+from formicarium.scheduling.insertion import spare_of
 from formicarium.scheduling.itinerary import Itineraries
-from formicarium.scheduling.lattice import Lattice, pool, spread, stand
+from formicarium.scheduling.lattice import NEVER, Lattice, pool, spread, stand
 from formicarium.scheduling.problem import Problem
 
 MOST_KEPT = 3000  # sets whose arms are kept, 64 KB each
@@ -64,9 +65,9 @@ class Growing(Descent[End]):
     def _children(self, node: End) -> list[End]:
         """Return an end that is longer by a set, for every set; measure those that are whole."""
         here = self._here(node)
-        bounds = self.rest.last(node.left, node.ticks, self._pooled(here), self.incumbent.goal)
+        bounds = self.rest.last(node.left, node.ticks, self._pooled(here), self.incumbent.goal / (1 - CAREFUL))
         children = []
-        for step in np.flatnonzero(bounds < self.incumbent.goal):
+        for step in np.flatnonzero(bounds < NEVER):
             chosen, took = int(self.rest.steps.sets[step]), int(self.rest.steps.ticks[step])
             tour, left = (*node.tour, chosen), node.left & ~chosen
             if left:
@@ -91,9 +92,8 @@ class Growing(Descent[End]):
             if len(self._arms) >= MOST_KEPT:
                 self._arms.clear()
             problem, costs = self.problem, np.empty(self.fine.side**2, np.float32)
-            robots = sum(int(problem.robots[task]) for task in range(problem.size) if chosen >> task & 1)
-            stand(chosen, self.fine.hops, (int(problem.limits[0]) - robots) // problem.paths, np.float32(self.fine.arm),
-                  self._sums, costs)  # fmt: skip
+            spare = spare_of(chosen, problem.robots, problem.limits[0], problem.paths)
+            stand(chosen, self.fine.hops, spare, np.float32(self.fine.arm), self._sums, costs)
             self._arms[chosen] = costs
         return self._arms[chosen]
 

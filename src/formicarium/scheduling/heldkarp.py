@@ -9,6 +9,7 @@ import numpy as np
 from formicarium.compiled import compiled
 from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.families import Family, can_cover
+from formicarium.scheduling.insertion import spare_of
 from formicarium.scheduling.lattice import NEVER, Lattice, spread, stand
 from formicarium.scheduling.problem import Problem
 
@@ -125,11 +126,7 @@ class HeldKarp:
 def stand_all(sets, hops, robots, limit, paths, arm, sums, costs):
     """Fill ``costs`` (n, cells) with what the arms of each set cost from each cell."""
     for number in range(len(sets)):
-        used = 0
-        for task in range(len(robots)):
-            if sets[number] >> task & 1:
-                used += robots[task]
-        stand(sets[number], hops, (limit - used) // paths, arm, sums, costs[number])
+        stand(sets[number], hops, spare_of(sets[number], robots, limit, paths), arm, sums, costs[number])
 
 
 def _inside(side: int, other: int) -> np.ndarray:

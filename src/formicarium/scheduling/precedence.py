@@ -14,6 +14,11 @@ def closure(problem: Problem) -> np.ndarray:
     return before
 
 
+def bits_of(related: np.ndarray) -> np.ndarray:
+    """Return (T,) the rows of a (T, T) table of yes and no as bits of whole numbers."""
+    return np.array([sum(1 << int(t) for t in np.flatnonzero(row)) for row in related], np.int64)
+
+
 def longest_chain(problem: Problem) -> int:
     """Return the ticks of the longest chain of tasks that must be done one after the other."""
     order = in_order(problem)

@@ -16,7 +16,7 @@ from formicarium.scheduling.heldkarp import MOST_SETS, HeldKarp, Steps
 from formicarium.scheduling.insertion import Insertions
 from formicarium.scheduling.itinerary import Itineraries, Itinerary
 from formicarium.scheduling.lattice import lattice_of
-from formicarium.scheduling.precedence import closure
+from formicarium.scheduling.precedence import bits_of, closure
 from formicarium.scheduling.problem import Problem
 
 COARSE, FINE, FINER, FINEST = 16, 32, 64, 128  # cells along each side
@@ -115,7 +115,7 @@ class Search:
             return
         related = closure(problem)
         lattice = lattice_of(problem, FINER, self.charge_first, optimistic=True)
-        family = Family(problem, lattice.hops, _bits(related | related.T))
+        family = Family(problem, lattice.hops, bits_of(related | related.T))
         clock.check()
         if not family.complete:
             return
@@ -124,8 +124,10 @@ class Search:
         self._descend(branching, LOOK)
         sets = branching.root.sets
         if self.bound < incumbent.goal and len(sets) <= MOST_SETS:
-            self._grow(family, sets, related, ways, clock)
-            incumbent.target = float("inf")
+            try:
+                self._grow(family, sets, related, ways, clock)
+            finally:  # a bound that meets a target proves nothing about the tour
+                incumbent.target = float("inf")
         if self.bound < incumbent.goal:
             self._descend(branching)
 
@@ -168,7 +170,7 @@ class Search:
 
     def _programme(self, family: Family, sets: np.ndarray, related: np.ndarray, side: int, from_end: bool) -> HeldKarp:
         lattice = lattice_of(self.problem, side, self.charge_first, optimistic=True)
-        steps = Steps(self.problem, lattice, sets, _bits(related if from_end else related.T))
+        steps = Steps(self.problem, lattice, sets, bits_of(related if from_end else related.T))
         first = np.zeros_like(lattice.first) if from_end else lattice.first
         return HeldKarp(self.problem, family, steps, self.ticks, first)
 
@@ -196,11 +198,6 @@ class Search:
                 self.incumbent.offer(slots, ways.cheapest(slots, self.incumbent.way.cost))
             clock.tell("annealing", self.bound, self.incumbent.way.cost)
             clock.check()
-
-
-def _bits(related: np.ndarray) -> np.ndarray:
-    """Return the rows of a table of yes and no as bits of whole numbers."""
-    return np.array([sum(1 << int(t) for t in np.flatnonzero(row)) for row in related], np.int64)
 
 
 def _as_deployed(problem: Problem, slots: list[tuple[int, ...]], charge_first: bool) -> Itinerary:
