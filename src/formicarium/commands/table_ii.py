@@ -3,6 +3,7 @@
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
@@ -19,21 +20,16 @@ from formicarium.commands.campaign.progress import CampaignProgress
 from formicarium.commands.campaign.sitting import terminable
 from formicarium.commands.errors import UserError
 from formicarium.compiled import PACKAGE
-from formicarium.studies.scheduling import (
-    Objective,
-    Row,
-    design_of,
-    figure_7,
-    figure_8,
-    grid,
-    improved,
-    jobs_of,
-)
+from formicarium.studies.scheduling import PARTS, Part, Row
+from formicarium.studies.scheduling_tables import beside, figure_7, figure_8, figure_scale, grid, improved
 
-TABLES: dict[str, tuple[Objective, ...]] = {
+TABLES: dict[str, tuple[str, ...]] = {
     "table-2-time": ("time",),
     "table-2-travel": ("travel",),
-    "all": ("time", "travel"),
+    "paper-model": ("paper-time", "paper-travel"),
+    "hundred-tasks": ("hundred-tasks",),
+    "scale": ("scale",),
+    "all": tuple(PARTS),
 }
 LIBRARIES = ("numpy", "numba", "highspy")
 
@@ -48,11 +44,11 @@ def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) 
         raise UserError(f"--workers {workers}: must be at least 1")
     if runs is not None and runs < 1:
         raise UserError(f"--runs {runs}: must be at least 1")
-    return max(_run(objective, folder, runs, workers or os.cpu_count() or 1) for objective in TABLES[figure])
+    return max(_run(PARTS[name], folder, runs, workers or os.cpu_count() or 1) for name in TABLES[figure])
 
 
-def _run(objective: Objective, folder: Path, runs: int | None, workers: int) -> int:
-    design, jobs = design_of(objective, runs), jobs_of(objective, runs)
+def _run(part: Part, folder: Path, runs: int | None, workers: int) -> int:
+    design, jobs = part.design(runs), part.jobs(runs)
     ledger = Ledger(folder / design.name)
     manifest = {"name": design.name, "system": design.system, "design": design.content()}
     trouble = Console(stderr=True)
@@ -73,33 +69,22 @@ def _run(objective: Objective, folder: Path, runs: int | None, workers: int) -> 
 
 
 def draw_study(figure: str, folder: Path, runs: int | None) -> int:
-    """Write a table of cells an objective, a row an instance, Figs 7 and 8; return 1 if instances are missing, else 0.
+    """Write a table of cells a part, a row an instance and the figures; return 1 if instances are missing, else 0.
 
     Raises:
         UserError: if no instance is there.
         StoreError: if the folder cannot be read or written.
     """
-    from formicarium.views.charts import draw_chart
-
-    written, lines, missing = [], [], 0
-    for objective in TABLES[figure]:
-        rows, total = _rows(objective, folder, runs)
+    found, lines, missing = {}, [], 0
+    for name in TABLES[figure]:
+        rows, total = _rows(PARTS[name], folder, runs)
         missing += total - len(rows)
-        if not rows:
-            continue
-        cells = [cell.content(objective) for cell in grid(rows)]
-        written.append(folder / f"table-2-{objective}.csv")
-        write_csv(table.from_rows(cells), written[-1])
-        written.append(folder / f"instances-{objective}.csv")
-        write_csv(table.from_rows([_compact(row) for row in rows]), written[-1])
-        lines += _in_words(objective, rows, total)
-        if objective == "travel":
-            written += [
-                draw_chart(figure_7(rows), folder / "figure-7.png"),
-                draw_chart(figure_8(rows), folder / "figure-8.png"),
-            ]
-    if not written:
+        if rows:
+            found[name] = rows
+            lines += _in_words(PARTS[name], rows, total)
+    if not found:
         raise UserError(f"{folder}: no instance of this study is there. Run it first.")
+    written = [path for name, rows in found.items() for path in _write(PARTS[name], rows, folder)]
     write_text(folder / "report.md", "# Task schedules\n\n" + "\n".join(lines) + "\n")
     screen = Console()
     for line in lines:
@@ -109,13 +94,40 @@ def draw_study(figure: str, folder: Path, runs: int | None) -> int:
     return 1 if missing else 0
 
 
-def _rows(objective: Objective, folder: Path, runs: int | None) -> tuple[list[Row], int]:
-    jobs = jobs_of(objective, runs)
-    ledger = Ledger(folder / design_of(objective, runs).name)
+def _write(part: Part, rows: list[Row], folder: Path) -> list[Path]:
+    from formicarium.views.charts import draw_chart
+
+    cells = [cell.content(part.said["objective"]) for cell in grid(rows)]
+    written = [
+        _table(cells, folder / f"cells-{part.name}.csv"),
+        _table([_compact(row) for row in rows], folder / f"instances-{part.name}.csv"),
+    ]
+    if part.name == "travel":
+        written += [
+            draw_chart(figure_7(rows), folder / "figure-7.png"),
+            draw_chart(figure_8(rows), folder / "figure-8.png"),
+        ]
+    if part.name == "scale":
+        written.append(draw_chart(figure_scale(rows), folder / "figure-growing.png"))
+    if part.one_in > 1:
+        ours, _ = _rows(PARTS[part.said["objective"]], folder, None)
+        if both := beside(ours, rows):
+            written.append(_table([_compact(row) for row in both], folder / f"beside-{part.name}.csv"))
+    return written
+
+
+def _table(rows: list[dict[str, Any]], path: Path) -> Path:
+    write_csv(table.from_rows(rows), path)
+    return path
+
+
+def _rows(part: Part, folder: Path, runs: int | None) -> tuple[list[Row], int]:
+    jobs = part.jobs(runs)
+    ledger = Ledger(folder / part.design(runs).name)
     return tidy(ledger.rows(), jobs).to_pylist(), sum(len(job.keys) for job in jobs)
 
 
-def _compact(row: Row) -> Row:
+def _compact(row: Row) -> dict[str, Any]:
     left_out = ("cell", "replicate", "identity")
     return {
         name: float(f"{value:.6g}") if isinstance(value, float) else value
@@ -124,15 +136,16 @@ def _compact(row: Row) -> Row:
     }
 
 
-def _in_words(objective: Objective, rows: list[Row], total: int) -> list[str]:
+def _in_words(part: Part, rows: list[Row], total: int) -> list[str]:
     seconds = sorted(row["seconds"] for row in rows)
     proven = sum(row["ended"] == "proven" for row in rows)
+    refused, none = sum(bool(row["faults"]) for row in rows), sum(row["faults"] is None for row in rows)
     words = [
-        f"- {objective}: {len(rows)} of {total} instances solved, {proven} proven ({proven / len(rows):.1%}); "
+        f"- {part.name}: {len(rows)} of {total} instances solved, {proven} proven ({proven / len(rows):.1%}); "
         f"processor time median {seconds[len(seconds) // 2]:.2f} s, worst {seconds[-1]:.1f} s; "
-        f"schedules that the checker refuses: {sum(row['faults'] > 0 for row in rows)}",
+        f"without a schedule {none}, schedules that the checker refuses: {refused}",
     ]
-    if objective == "travel":
+    if part.name == "travel":
         for name, after, before in (("7", "trip_m", "time_trip_m"), ("8", "relays", "time_relays")):
             better, count = improved(rows, after, before)
             words.append(f"- Fig. {name}: less in {better} of {count} instances than in the schedule of least time")

@@ -1,16 +1,13 @@
-"""The published study of task schedules: six densities, five classes, 24 instances each, for both objectives.
+"""The study of task schedules: six densities, five classes, 24 instances each, for both objectives; then larger ones.
 
-A run is an instance; its seed draws it. Times are those of the processor, one core, so that a busy machine does not
-change them.
+Beside Table II stands the paper's own model, given to HiGHS on one instance in ten. A run is an instance; its seed
+draws it. Times are those of the processor, one core, so that a busy machine does not change them.
 """
 
-import statistics
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
-from typing import Any, Literal, NamedTuple
-
-import numpy as np
+from typing import Any, NamedTuple
 
 from formicarium.campaigns.cells import Job, cells_of
 from formicarium.campaigns.configuration import Configuration
@@ -19,16 +16,22 @@ from formicarium.campaigns.errors import Futile
 from formicarium.campaigns.result import Result, Watch
 from formicarium.compiled import room_hash
 from formicarium.scheduling.checker import check
+from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.generator import DENSITIES, draw_instance
-from formicarium.scheduling.schedule import Answer, Schedule
-from formicarium.scheduling.solver import shorten, solve
-from formicarium.studies.chart import Chart, Panel, Spread
+from formicarium.scheduling.instance import Instance
+from formicarium.scheduling.model import solve_model
+from formicarium.scheduling.reach import Reach
+from formicarium.scheduling.schedule import Answer
+from formicarium.scheduling.solver import RELATIVE_GAP, shorten, solve
 
-Objective = Literal["time", "travel"]
 Row = Mapping[str, Any]
+Solve = Callable[[Instance, float], dict[str, Any]]
 CLASSES = (1, 2, 3, 4, 5)
 FIRST_SEED, INSTANCES = 200_001, 24
-LIMIT = 60.0  # s of the processor for each of the two problems
+LIMIT = 60.0  # s of the processor for each problem of Table II
+ONE_IN = 10  # instances of Table II is given to HiGHS with the paper's model
+HUNDRED_SEED, HUNDRED_INSTANCES, HUNDRED_LIMIT = 201_001, 2, 120.0  # a hundred tasks: 48 instances
+SCALE_SEED, SCALE_INSTANCES, SCALE_LIMIT = 201_003, 1, 600.0  # up to a thousand
 ROOM = "scheduling"
 # Table II: mean seconds of CPLEX 12.7 with 8 threads; 10800 is its limit
 PAPER = {
@@ -49,134 +52,137 @@ PAPER = {
 }
 
 
-def design_of(objective: Objective, runs: int | None) -> Design:
-    """Return the study as a table: a cell for each class and density."""
-    content = {
-        "name": f"scheduling-{objective}",
-        "system": ROOM,
-        "replicates": runs or INSTANCES,
-        "first_seed": FIRST_SEED,
-        "factors": {"class": list(CLASSES), "density": list(DENSITIES)},
-    }
-    return make_design(content, f"study scheduling, {objective}")
+class Part(NamedTuple):
+    """A campaign of the study."""
 
+    name: str  # after "scheduling-"
+    factors: Mapping[str, Sequence[Any]]
+    said: Mapping[str, Any]  # the same in every cell
+    solve: Solve
+    first_seed: int = FIRST_SEED
+    instances: int = INSTANCES  # of each cell
+    one_in: int = 1  # of all instances in their order is solved
 
-def jobs_of(objective: Objective, runs: int | None) -> list[Job]:
-    """Return the cells, ready to run."""
-    jobs = []
-    for cell in cells_of(design_of(objective, runs)):
-        parameters = {**cell.said, "objective": objective, "reach": "printed", "first_hop": "free", "limit_s": LIMIT}
-        configuration = Configuration(ROOM, parameters, room_hash(ROOM), version("formicarium"))
-        function = partial(solve_one, int(cell.said["class"]), float(cell.said["density"]), objective,
-                           configuration.sources)  # fmt: skip
-        jobs.append(Job(cell, configuration, function))
-    return jobs
+    @property
+    def limit(self) -> float:
+        """Seconds of the processor for an instance."""
+        return float(self.said["limit_s"])
+
+    def design(self, runs: int | None) -> Design:
+        """Return the part as a table."""
+        content = {
+            "name": f"scheduling-{self.name}",
+            "system": ROOM,
+            "replicates": runs or self.instances,
+            "first_seed": self.first_seed,
+            "factors": {name: list(levels) for name, levels in self.factors.items()},
+        }
+        return make_design(content, f"study scheduling, {self.name}")
+
+    def jobs(self, runs: int | None) -> list[Job]:
+        """Return the cells, ready to run."""
+        jobs, number = [], 0
+        for cell in cells_of(self.design(runs)):
+            first = cell.number * self.instances
+            seeds = [seed for k, seed in enumerate(cell.seeds, first) if k % self.one_in == 0]
+            configuration = Configuration(ROOM, {**cell.said, **self.said}, room_hash(ROOM), version("formicarium"))
+            function = partial(solve_one, self.name, cell.said, configuration.sources)
+            if seeds:
+                jobs.append(Job(cell._replace(number=number, seeds=tuple(seeds)), configuration, function))
+                number += 1
+        return jobs
 
 
 class ChangedSources(Futile):
     """A worker found other sources than those that the rows stand for."""
 
 
-def solve_one(
-    number: int, density: float, objective: Objective, sources: str, seed: int, watch: Watch | None
-) -> Result:
+def solve_one(part: str, said: Mapping[str, Any], sources: str, seed: int, watch: Watch | None) -> Result:
     """Solve one instance as the paper prints it: its octagon, its first hop free."""
     if room_hash(ROOM) != sources:
         raise ChangedSources("the sources were edited while the study ran; run the same command again")
-    instance = draw_instance(number, density, seed)
-    answer = solve(instance, "time", "printed", LIMIT, processor_time=True)
-    assert answer.schedule is not None
-    row: dict[str, Any] = {"class": number, "density": density}
-    if objective == "travel":
-        raw = answer.schedule
-        row |= {"time_trip_m": raw.trip, "time_relays": raw.relays, "time_proven": answer.proven}
-        answer = shorten(instance, raw, "printed", LIMIT, charge_first=False, processor_time=True)
-    assert answer.schedule is not None
-    return Result(row | _row(instance, answer, answer.schedule), {})
+    number, density = int(said["class"]), float(said["density"])
+    instance = draw_instance(number, density, seed, said.get("tasks"))
+    return Result({**said, **PARTS[part].solve(instance, PARTS[part].limit)}, {})
 
 
-def _row(instance: Any, answer: Answer, schedule: Schedule) -> dict[str, Any]:
-    verdict = check(instance, schedule, "printed", answer.time_limit)
-    return {
+def _least_time(instance: Instance, limit: float) -> dict[str, Any]:
+    return _row(instance, solve(instance, "time", "printed", limit, processor_time=True))
+
+
+def _least_travel(instance: Instance, limit: float) -> dict[str, Any]:
+    first = solve(instance, "time", "printed", limit, processor_time=True)
+    assert first.schedule is not None
+    raw = {"time_trip_m": first.schedule.trip, "time_relays": first.schedule.relays, "time_proven": first.proven}
+    answer = shorten(instance, first.schedule, "printed", limit, charge_first=False, processor_time=True)
+    return raw | _row(instance, answer)
+
+
+def _paper_time(instance: Instance, limit: float) -> dict[str, Any]:
+    """Give HiGHS the paper's model, with as many slots as the best schedule can have: in its favour."""
+    first = solve(instance, "time", "printed", limit, processor_time=True)
+    return _row(instance, _modelled(instance, first, limit, None))
+
+
+def _paper_travel(instance: Instance, limit: float) -> dict[str, Any]:
+    first = solve(instance, "time", "printed", limit, processor_time=True)
+    return _row(instance, _modelled(instance, first, limit, first.value))
+
+
+def _modelled(instance: Instance, first: Answer, limit: float, time: float | None) -> Answer:
+    slots = min(len(instance.tasks), int(first.value / min(task.duration for task in instance.tasks)))
+    clock = Clock(limit, None, processor=True)
+    value, bound, schedule = solve_model(instance, Reach.PRINTED, clock, slots, time)
+    objective, gap = ("time", 1e-9) if time is None else ("travel", RELATIVE_GAP)
+    proven = schedule is not None and value - bound <= gap * value
+    return Answer(objective, schedule, value, bound, clock.seconds, "HiGHS", "proven" if proven else "time limit", time)
+
+
+TABLE_2 = {"class": CLASSES, "density": DENSITIES}
+AS_PRINTED = {"reach": "printed", "first_hop": "free"}
+PARTS = {
+    part.name: part
+    for part in (
+        Part("time", TABLE_2, {"objective": "time", **AS_PRINTED, "limit_s": LIMIT}, _least_time),
+        Part("travel", TABLE_2, {"objective": "travel", **AS_PRINTED, "limit_s": LIMIT}, _least_travel),
+        Part(
+            "paper-time", TABLE_2, {"objective": "time", "solver": "HiGHS", **AS_PRINTED, "limit_s": LIMIT},
+            _paper_time, one_in=ONE_IN,
+        ),
+        Part(
+            "paper-travel", TABLE_2, {"objective": "travel", "solver": "HiGHS", **AS_PRINTED, "limit_s": LIMIT},
+            _paper_travel, one_in=ONE_IN,
+        ),
+        Part(
+            "hundred-tasks", {"class": (6, 7, 8, 9), "density": DENSITIES},
+            {"objective": "time", **AS_PRINTED, "limit_s": HUNDRED_LIMIT}, _least_time, HUNDRED_SEED, HUNDRED_INSTANCES,
+        ),
+        Part(
+            "scale", {"class": (6, 8), "density": (0.05,), "tasks": (50, 100, 200, 500, 1000)},
+            {"objective": "time", **AS_PRINTED, "limit_s": SCALE_LIMIT}, _least_time, SCALE_SEED,
+            SCALE_INSTANCES,
+        ),
+    )
+}  # fmt: skip
+
+
+def _row(instance: Instance, answer: Answer) -> dict[str, Any]:
+    row: dict[str, Any] = {
         "ended": answer.ended,
         "value": answer.value,
         "bound": answer.bound,
         "gap": answer.gap,
         "proof": answer.proof,
         "seconds": answer.seconds,
-        "slots": len(schedule.slots),
-        "completion_time": verdict.time,
-        "trip_m": verdict.trip,
-        "relays": verdict.relays,
-        "first_trip_m": verdict.first_trip,
-        "arms_over_radio": verdict.over_radio,
-        "faults": len(verdict.faults),
     }
-
-
-class Cell(NamedTuple):
-    """What came of the instances of one class and density."""
-
-    number: int
-    density: float
-    rows: Sequence[Row]
-
-    @property
-    def proven(self) -> int:
-        """How many were proven."""
-        return sum(row["ended"] == "proven" for row in self.rows)
-
-    def content(self, objective: Objective) -> dict[str, Any]:
-        """Return a row of the table of cells, the paper's mean beside ours."""
-        seconds = [row["seconds"] for row in self.rows]
-        open_gaps = [row["gap"] for row in self.rows if row["ended"] != "proven"]
-        return {
-            "class": self.number,
-            "density": self.density,
-            "instances": len(self.rows),
-            "proven": self.proven,
-            "mean_s": statistics.fmean(seconds),
-            "median_s": statistics.median(seconds),
-            "worst_s": max(seconds),
-            "paper_mean_s": PAPER[objective][self.number][DENSITIES.index(self.density)],
-            "median_gap_of_open": statistics.median(open_gaps or [0.0]),
-            "worst_gap": max(row["gap"] for row in self.rows),
-        }  # fmt: skip
-
-
-def grid(rows: Sequence[Row]) -> list[Cell]:
-    """Return the cells that have instances, in the order of Table II."""
-    keys = [(number, density) for number in CLASSES for density in DENSITIES]
-    found = [Cell(n, d, [row for row in rows if (row["class"], row["density"]) == (n, d)]) for n, d in keys]
-    return [cell for cell in found if cell.rows]
-
-
-def figure_7(rows: Sequence[Row]) -> Chart:
-    """Return how much shorter the trip between deployment points becomes, class by class (Fig. 7)."""
-    return _reduction(rows, "7", "trip_m", "time_trip_m", "trip between deployment points saved, %")
-
-
-def figure_8(rows: Sequence[Row]) -> Chart:
-    """Return how much shorter the arms become, class by class (Fig. 8)."""
-    return _reduction(rows, "8", "relays", "time_relays", "relays of the arms saved, %")
-
-
-def _reduction(rows: Sequence[Row], name: str, after: str, before: str, up: str) -> Chart:
-    panels = []
-    for number in CLASSES:
-        spreads = []
-        for density in DENSITIES:
-            chosen = [row for row in rows if (row["class"], row["density"]) == (number, density) and row[before] > 0]
-            saved = [100.0 * (1.0 - row[after] / row[before]) for row in chosen]
-            if saved:
-                shares = [float(share) for share in np.percentile(saved, (5, 25, 50, 75, 95))]
-                spreads.append(Spread(f"{density:g}", shares))
-        if spreads:
-            panels.append(Panel(f"class {number}", "density D", up, spreads=spreads))
-    note = f"{len(rows)} instances; against the schedule of least time with relays as few as its points allow"
-    return Chart(f"figure-{name}", f"Least dislocation against least time (Fig. {name})", note, panels)
-
-
-def improved(rows: Sequence[Row], after: str, before: str) -> tuple[int, int]:
-    """Return how many instances got better and how many there are."""
-    return sum(row[after] < row[before] - 1e-9 for row in rows), len(rows)
+    schedule = answer.schedule
+    verdict = None if schedule is None else check(instance, schedule, "printed", answer.time_limit)
+    return row | {
+        "slots": schedule and len(schedule.slots),
+        "completion_time": verdict and verdict.time,
+        "trip_m": verdict and verdict.trip,
+        "relays": verdict and verdict.relays,
+        "first_trip_m": verdict and verdict.first_trip,
+        "arms_over_radio": verdict and verdict.over_radio,
+        "faults": verdict and len(verdict.faults),
+    }
