@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from formicarium.scheduling.clock import Clock, OutOfTime
-from formicarium.scheduling.covering import Cover, Covering, Layer, Set
+from formicarium.scheduling.covering import MANY, Cover, Covering, Layer, Set
 from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.diving import dive
 from formicarium.scheduling.enumeration import sets_below
 from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
 from formicarium.scheduling.precedence import longest_chain
@@ -40,13 +41,15 @@ class Search:
         value = ticks_of(problem, slots)
         chain = max(longest_chain(problem), int(problem.ticks.max()))
         self.best = Completion(slots, value, chain, "longest chain")
-        self._tell("first fit")
 
     def run(self) -> None:
         """Close the gap, or raise OutOfTime."""
+        self._tell("first fit")
         covering = Covering(self.problem, self.clock)
         covering.add(self.best.slots)
         layers, cover = self._relax(covering)
+        if self._open() and self.problem.size > MANY and not len(self.problem.before):
+            self._dive(covering, cover)
         if self._open():
             self._choose(covering, layers)
         if self._open() and cover.converged:
@@ -98,6 +101,12 @@ class Search:
             self.best = self.best._replace(slots=slots, value=value)
         self._tell(part)
         self.clock.check()
+
+    def _dive(self, covering: Covering, cover: Cover) -> None:
+        problem = self.problem
+        slots = dive(problem, covering.sets, cover.gains, CHOOSING * self.clock.left, self.clock)
+        if sum(len(slot) for slot in slots) == problem.size:
+            self._improve(slots, "diving")
 
     def _choose(self, covering: Covering, layers: list[Layer], share: float = CHOOSING) -> None:
         seconds = min(60.0, share * self.clock.left)

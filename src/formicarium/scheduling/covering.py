@@ -15,8 +15,9 @@ from formicarium.scheduling.pricing import Prices
 from formicarium.scheduling.problem import Problem
 
 EPSILON = 1e-7
-FEW_BOXES, MORE, MOST_BOXES = 300, 30, 8_100_000  # of a first look for better sets; next time; of a proof of none
-BOXES_A_SECOND = 300_000  # at least: a look that could take longer than there is time is not begun
+MOST_BOXES = 8_100_000  # of a proof that there are no better sets
+BOXES_A_SECOND = 6_000_000  # and task, at least: a look that could take longer than there is time is not begun
+MANY = 150  # tasks; from there on every part of the region is asked for its sets, and prices lie in the interior
 
 Set = tuple[int, ...]  # tasks, sorted
 
@@ -34,8 +35,18 @@ class Cover(NamedTuple):
     bound: float  # of the sum of durations, ticks
     gains: np.ndarray  # (T,) duals of the tasks, feasible: no set costs less than it gains
     layer_gains: np.ndarray  # (layers,) duals of the layers
-    weights: dict[Set, float]  # sets in use
-    converged: bool  # the bound is the value of the relaxation
+    converged: bool  # no set is worth more than it costs
+
+
+class Look(NamedTuple):
+    """How closely better sets are looked for."""
+
+    side: int  # parts of the region along each side
+    boxes: int  # of the deployment point, in each part, at first
+    closer: int  # times as many after a look that found few
+
+
+FEW_TASKS, MANY_TASKS = Look(1, 300, 30), Look(16, 50, 3)
 
 
 class Covering:
@@ -46,7 +57,9 @@ class Covering:
         self.problem = problem
         self.clock = clock
         self.sets: dict[Set, None] = {(task,): None for task in range(problem.size)}
+        self._look = MANY_TASKS if problem.size > MANY else FEW_TASKS
         self._prices = Prices(problem)
+        self._parts = _parts(problem.region, self._look.side)
 
     def add(self, sets: Iterable[Set]) -> None:
         """Take over sets that can be done at once."""
@@ -63,58 +76,87 @@ class Covering:
             seconds: to spend at most.
             whole: costs of schedules are multiples of this.
         """
-        problem, until = self.problem, self.clock.seconds + seconds
-        row = {int(task): number for number, task in enumerate(tasks)}
-        single = len(layers) == 1
-        levels = np.array([layer.ticks for layer in layers])
-        allowed = np.zeros((len(layers), problem.size), bool)
-        for number, layer in enumerate(layers):
-            allowed[number, tasks] = True if single else problem.ticks[tasks] <= layer.ticks
-        linear = Linear([1.0] * len(tasks) + [layer.least for layer in layers])
-        columns: list[tuple[Set, int]] = []
-
-        def put(chosen: Set, level: int) -> None:
-            linear.add(levels[level], [row[t] for t in chosen] + [len(tasks) + k for k in range(level + 1)])
-            columns.append((chosen, level))
-
-        known: set[tuple[Set, int]] = set()
-        for chosen in list(self.sets):
-            part = tuple(t for t in chosen if t in row)
-            level = 0 if single or not part else int(np.searchsorted(levels, problem.ticks[list(part)].max()))
-            if part and (part, level) not in known:
-                known.add((part, level))
-                put(part, level)
-        for level in range(len(layers)):
-            put((), level)
-        least, best = 0.0, Cover(0.0, np.zeros(problem.size), np.zeros(len(layers)), {}, False)
+        until, look = self.clock.seconds + seconds, self._look
+        programme = _Programme(self.problem, tasks, layers, self.sets, self.problem.size > MANY)
+        best, boxes = Cover(0.0, np.zeros(self.problem.size), np.zeros(len(layers)), False), look.boxes
+        prices = programme.solve()
         while True:
-            value, amounts, duals = linear.solve()
-            gains = np.zeros(problem.size)
-            gains[tasks] = duals[: len(tasks)]
-            paid = np.cumsum(duals[len(tasks) :])
-            boxes = FEW_BOXES
-            while True:
-                found, worst, exact = 0, 1.0, True
-                for level in range(len(layers) - 1, -1, -1):
-                    worth = levels[level] - paid[level]
-                    priced = self._prices.best(gains, allowed[level], worth + EPSILON, boxes)
-                    worst = max(worst, (priced.bound + paid[level]) / levels[level])
-                    exact = exact and priced.bound <= worth + 2 * EPSILON
-                    for tasks_found in priced.sets[-12:]:
-                        whole_set = tuple(int(t) for t in tasks_found)
-                        self.sets[whole_set] = None
-                        put(whole_set, level)
-                        found += 1
-                boxes *= MORE
-                most = min(MOST_BOXES, BOXES_A_SECOND * (until - self.clock.seconds))
-                if found or exact or boxes > most:
-                    break
-            if value / worst > least or exact:
-                least = max(least, value / worst)
-                used = {
-                    columns[k][0]: a for k, a in enumerate(amounts[: len(columns)]) if a > EPSILON and columns[k][0]
-                }
-                best = Cover(least, gains / worst, np.diff(paid, prepend=0.0) / worst, used, exact)
-            rounded = np.ceil(least / whole - 1e-6) * whole
-            if exact or not found or rounded >= enough or self.clock.seconds > until:
+            found, worst = self._price(programme, prices, boxes)
+            exact = worst <= 1.0 + 2 * EPSILON
+            if prices.value / worst > best.bound or exact:
+                bound = max(best.bound, prices.value / worst)
+                best = Cover(bound, prices.gains / worst, np.diff(prices.paid, prepend=0.0) / worst, exact)
+            boxes = boxes * look.closer if found < len(self._parts) / 4 else max(look.boxes, boxes // look.closer)
+            rounded = np.ceil(best.bound / whole - 1e-6) * whole
+            if exact or rounded >= enough or self.clock.seconds > until or (not found and boxes > self._most(until)):
                 return best
+            if found:
+                prices = programme.solve()
+
+    def _most(self, until: float) -> float:
+        return min(MOST_BOXES, BOXES_A_SECOND / self.problem.size * (until - self.clock.seconds) / len(self._parts))
+
+    def _price(self, programme: "_Programme", prices: "_Prices", boxes: int) -> tuple[int, float]:
+        """Add sets that are worth more than they cost; return their number and the most that a set exceeds its cost."""
+        found, worst = 0, 1.0
+        for level in range(len(programme.levels) - 1, -1, -1):
+            length, paid = programme.levels[level], prices.paid[level]
+            for part in self._parts:
+                priced = self._prices.best(prices.gains, programme.allowed[level], length - paid + EPSILON, boxes, part)
+                worst = max(worst, (priced.bound + paid) / length)
+                for tasks in priced.sets[-12:]:
+                    chosen = tuple(int(t) for t in tasks)
+                    self.sets[chosen] = None
+                    found += programme.put(chosen, level)
+        return found, worst
+
+
+class _Prices(NamedTuple):
+    """What the programme would pay."""
+
+    gains: np.ndarray  # (T,) for a task
+    paid: np.ndarray  # (layers,) for a slot that is so long, all shorter layers included
+    value: float  # for everything
+
+
+class _Programme:
+    """The linear programme: a row a task, then one a layer; a column a set and the layer that it is used in."""
+
+    def __init__(self, problem: Problem, tasks: np.ndarray, layers: list[Layer], sets: Iterable[Set], interior: bool):
+        self.levels = np.array([layer.ticks for layer in layers])
+        self.allowed = np.zeros((len(layers), problem.size), bool)  # tasks in a set of that layer
+        single = len(layers) == 1
+        for number, layer in enumerate(layers):
+            self.allowed[number, tasks] = True if single else problem.ticks[tasks] <= layer.ticks
+        self._tasks, self._row = tasks, {int(task): number for number, task in enumerate(tasks)}
+        self._least = np.array([1.0] * len(tasks) + [layer.least for layer in layers])
+        self._linear = Linear(self._least, interior)
+        self._known: set[tuple[Set, int]] = set()
+        for chosen in list(sets):
+            part = tuple(t for t in chosen if t in self._row)
+            if part:
+                self.put(part, 0 if single else int(np.searchsorted(self.levels, problem.ticks[list(part)].max())))
+        for level in range(len(layers)):
+            self.put((), level)
+
+    def put(self, chosen: Set, level: int) -> bool:
+        """Add a column unless it is there."""
+        if (chosen, level) in self._known:
+            return False
+        self._known.add((chosen, level))
+        rows = [self._row[t] for t in chosen] + [len(self._tasks) + k for k in range(level + 1)]
+        self._linear.add(self.levels[level], rows)
+        return True
+
+    def solve(self) -> _Prices:
+        """Return prices at which no column is worth more than it costs, or hardly: any prices make a bound."""
+        duals = self._linear.solve()[2]
+        gains = np.zeros(len(self.allowed[0]))
+        gains[self._tasks] = duals[: len(self._tasks)]
+        return _Prices(gains, np.cumsum(duals[len(self._tasks) :]), float(duals @ self._least))
+
+
+def _parts(region: np.ndarray, side: int) -> np.ndarray:
+    """Return the parts of a region, (side^2, 4) as x0, y0, x1, y1."""
+    xs, ys = np.linspace(region[0], region[2], side + 1), np.linspace(region[1], region[3], side + 1)
+    return np.array([(xs[i], ys[j], xs[i + 1], ys[j + 1]) for i in range(side) for j in range(side)])

@@ -18,9 +18,18 @@ INFINITY = highspy.kHighsInf
 class Linear:
     """A linear programme to which columns are added, solved again from where it was."""
 
-    def __init__(self, lower: Sequence[float]):
-        """Begin with rows that are at least so large, and no column."""
-        self._highs = _quiet()
+    def __init__(self, lower: Sequence[float] | np.ndarray, interior: bool = False):
+        """Begin with rows that are at least so large, and no column.
+
+        Args:
+            lower: of the rows.
+            interior: answer from the interior of the set of solutions, roughly: for many rows in a fraction of the
+                time, and with duals that lead to better columns than those of a corner.
+        """
+        self._highs, self._interior = _quiet(), interior
+        if interior:
+            for name, value in (("solver", "ipm"), ("run_crossover", "off"), ("ipm_optimality_tolerance", 1e-4)):
+                self._highs.setOptionValue(name, value)
         for value in lower:
             self._highs.addRow(float(value), INFINITY, 0, np.array([], np.int32), np.array([]))
 
@@ -36,7 +45,8 @@ class Linear:
             ArithmeticError: if it has no solution.
         """
         self._highs.run()
-        if self._highs.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+        rough = self._interior and self._highs.getSolution().dual_valid
+        if self._highs.getModelStatus() != highspy.HighsModelStatus.kOptimal and not rough:
             raise ArithmeticError(f"HiGHS: {self._highs.modelStatusToString(self._highs.getModelStatus())}")
         solution = self._highs.getSolution()
         value = self._highs.getInfo().objective_function_value

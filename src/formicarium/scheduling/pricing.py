@@ -44,7 +44,7 @@ class Prices:
         self._sets = np.empty((MOST_SETS, size), np.bool_)
         self._point = np.empty(2)
 
-    def best(self, gains: np.ndarray, allowed: np.ndarray, worth: float, boxes: int = 1_000_000) -> Priced:
+    def best(self, gains: np.ndarray, allowed: np.ndarray, worth: float, boxes: int, region: np.ndarray) -> Priced:
         """Return sets of the allowed tasks that gain more than ``worth`` together, and a bound on all.
 
         Args:
@@ -52,6 +52,7 @@ class Prices:
             allowed: (T,) bool.
             worth: of no interest at or below.
             boxes: to look at, at most, or as long in their knapsacks; if they are used up the bound is weaker.
+            region: (4,) x0, y0, x1, y1 for the deployment point.
         """
         problem = self.problem
         tasks = np.flatnonzero(allowed & (gains > 1e-12))
@@ -59,7 +60,7 @@ class Prices:
             return Priced([], 0.0)
         found, bound = search(
             gains[tasks], problem.places[tasks], problem.demands[:, tasks].astype(float), problem.limits.astype(float),
-            problem.spacing, problem.paths, problem.reach, problem.region, worth, boxes, self._boxes, self._reals,
+            problem.spacing, problem.paths, problem.reach, region, worth, boxes, self._boxes, self._reals,
             self._rows, self._weights, self._whole, self._flags, self._sets, self._point,
         )  # fmt: skip
         return Priced([tasks[flags[: len(tasks)]] for flags in self._sets[:found]], float(bound))
