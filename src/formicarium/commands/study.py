@@ -102,7 +102,7 @@ def study(
     if name == "coverage":
         return _coverage(figure, Path(out), runs, workers, collect_only, sources)
     if name == "scheduling":
-        return _scheduling(figure, Path(out), runs, workers, collect_only)
+        return _scheduling(figure, Path(out), runs, workers, collect_only, sources)
     from formicarium.commands.published.answers import draw_study, run_study
     from formicarium.commands.published.store import Asked
 
@@ -164,7 +164,9 @@ def _coverage(
     return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))
 
 
-def _scheduling(figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool) -> int:
+def _scheduling(
+    figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
+) -> int:
     from formicarium.commands.errors import UserError
     from formicarium.commands.extras import require
 
@@ -173,5 +175,7 @@ def _scheduling(figure: str, out: Path, runs: int | None, workers: int | None, c
 
     if figure not in table_ii.TABLES:
         raise UserError(f"--figure {figure}: the study scheduling has {', '.join(table_ii.TABLES)}")
-    code = 0 if collect_only else table_ii.run_study(figure, out, runs, workers)
-    return max(code, table_ii.draw_study(figure, out, runs))
+    if len(sources) > 1:
+        raise UserError("--sources: the study scheduling takes one")
+    code = 0 if collect_only or sources else table_ii.run_study(figure, out, runs, workers)
+    return max(code, table_ii.draw_study(figure, out, runs, sources[0] if sources else None))

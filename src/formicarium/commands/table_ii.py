@@ -16,6 +16,7 @@ from formicarium.campaigns.tidy import tidy
 from formicarium.campaigns.workers import Processes
 from formicarium.campaigns.writer import Writer
 from formicarium.commands.campaign.answers import write_csv
+from formicarium.commands.campaign.earlier import made_by
 from formicarium.commands.campaign.progress import CampaignProgress
 from formicarium.commands.campaign.sitting import terminable
 from formicarium.commands.errors import UserError
@@ -68,7 +69,7 @@ def _run(part: Part, folder: Path, runs: int | None, workers: int) -> int:
     return 0 if report.standing.done == report.standing.total else 1
 
 
-def draw_study(figure: str, folder: Path, runs: int | None) -> int:
+def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
     """Write a table of cells a part, a row an instance and the figures; return 1 if instances are missing, else 0.
 
     Raises:
@@ -77,14 +78,14 @@ def draw_study(figure: str, folder: Path, runs: int | None) -> int:
     """
     found, lines, missing = {}, [], 0
     for name in TABLES[figure]:
-        rows, total = _rows(PARTS[name], folder, runs)
+        rows, total = _rows(PARTS[name], folder, runs, sources)
         missing += total - len(rows)
         if rows:
             found[name] = rows
             lines += _in_words(PARTS[name], rows, total)
     if not found:
         raise UserError(f"{folder}: no instance of this study is there. Run it first.")
-    written = [path for name, rows in found.items() for path in _write(PARTS[name], rows, folder)]
+    written = [path for name, rows in found.items() for path in _write(PARTS[name], rows, folder, sources)]
     write_text(folder / "report.md", "# Task schedules\n\n" + "\n".join(lines) + "\n")
     screen = Console()
     for line in lines:
@@ -94,7 +95,7 @@ def draw_study(figure: str, folder: Path, runs: int | None) -> int:
     return 1 if missing else 0
 
 
-def _write(part: Part, rows: list[Row], folder: Path) -> list[Path]:
+def _write(part: Part, rows: list[Row], folder: Path, sources: str | None) -> list[Path]:
     from formicarium.views.charts import draw_chart
 
     cells = [cell.content(part.said["objective"]) for cell in grid(rows)]
@@ -110,7 +111,7 @@ def _write(part: Part, rows: list[Row], folder: Path) -> list[Path]:
     if part.name == "scale":
         written.append(draw_chart(figure_scale(rows), folder / "figure-growing.png"))
     if part.one_in > 1:
-        ours, _ = _rows(PARTS[part.said["objective"]], folder, None)
+        ours, _ = _rows(PARTS[part.said["objective"]], folder, None, sources)
         if both := beside(ours, rows):
             written.append(_table([_compact(row) for row in both], folder / f"beside-{part.name}.csv"))
     return written
@@ -121,9 +122,9 @@ def _table(rows: list[dict[str, Any]], path: Path) -> Path:
     return path
 
 
-def _rows(part: Part, folder: Path, runs: int | None) -> tuple[list[Row], int]:
-    jobs = part.jobs(runs)
+def _rows(part: Part, folder: Path, runs: int | None, sources: str | None) -> tuple[list[Row], int]:
     ledger = Ledger(folder / part.design(runs).name)
+    jobs = part.jobs(runs) if sources is None else made_by(sources, part.jobs(runs), ledger)
     return tidy(ledger.rows(), jobs).to_pylist(), sum(len(job.keys) for job in jobs)
 
 
