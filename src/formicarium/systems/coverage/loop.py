@@ -1,7 +1,8 @@
-"""The main loop of the coverage system: sense, decide, act, move, note."""
+"""The main loop of the coverage system: sense, decide, act, move, note; and first who fails."""
 
 from formicarium.compiled import compiled
 from formicarium.systems.coverage.behaviour import decide
+from formicarium.systems.coverage.failures import fail
 from formicarium.systems.coverage.measures import note
 from formicarium.trial.situated import act, move, sense
 
@@ -13,6 +14,9 @@ def run(state, cycles):
     for _ in range(cycles):
         if clock.finished == 1:
             return
+
+        # Some fail, in trials that ask for it.
+        fail(state)
 
         # Everybody hears what was said in the last cycle, with range and bearing.
         sense(state)

@@ -180,6 +180,33 @@ WORDS = {
 }
 
 
+class FailureTable(Table):
+    """Robots that fall silent for good in the midst of a trial (ST-71)."""
+
+    count: int = number(0, "1", "robots that fail [choice ST-71]", ge=0, le=PACKETS)
+    aim: Literal["random", "articulation", "master"] = number(
+        "random",
+        "1",
+        "random: any living robot but the master; articulation: one whose loss parts the range graph, as soon as there "
+        "is one; master: whoever leads [ST-71]",
+    )
+    remains: Literal["obstacle", "removed"] = number(
+        "obstacle", "1", "obstacle: the body stays where it is; removed: it is taken away [ST-71]"
+    )
+    earliest: float = number(30.0, "s", "each fails at a random time from here [choice ST-71]", ge=0, le=1e6)
+    latest: float = number(300.0, "s", "to here [choice ST-71]", ge=0, le=1e6)
+
+    @model_validator(mode="after")
+    def times_fit(self) -> "FailureTable":
+        """Refuse a time that ends before it begins."""
+        if self.latest < self.earliest:
+            raise ValueError(
+                f"failures.latest = {self.latest:g} s is before failures.earliest = {self.earliest:g} s: make latest "
+                "larger"
+            )
+        return self
+
+
 class ObserverTable(Table):
     """What the observers look at, and how often."""
 
@@ -200,6 +227,7 @@ class CoverageParameters(BaseModel):
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
+    failures: FailureTable = Field(default_factory=FailureTable)
 
     @model_validator(mode="after")
     def lengths_fit(self) -> "CoverageParameters":
@@ -215,6 +243,16 @@ class CoverageParameters(BaseModel):
     def mission_fits(self) -> "CoverageParameters":
         """Refuse a plan that cannot be flown."""
         check_mission(self.mission, self.tasks.programme, self.swarm.robots)
+        return self
+
+    @model_validator(mode="after")
+    def failures_fit(self) -> "CoverageParameters":
+        """Refuse more failures than there are robots."""
+        if self.failures.count >= self.swarm.robots:
+            raise ValueError(
+                f"failures.count = {self.failures.count} of swarm.robots = {self.swarm.robots}: at least one must be "
+                "left. Make count smaller"
+            )
         return self
 
 

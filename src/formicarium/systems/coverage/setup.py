@@ -13,6 +13,7 @@ from formicarium.robots.footbot import CHASSIS, COMMAND, IDENTITIES, READING
 from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
 from formicarium.systems.coverage.credit import TASK_SEEN
+from formicarium.systems.coverage.failures import make_failures
 from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
@@ -42,6 +43,7 @@ class CoverageState(NamedTuple):
     commands: np.recarray  # COMMAND (N,)
     charts: np.recarray  # CHART (N,); only the master's tells of tasks
     beacons: np.recarray  # BEACON (T,)
+    failures: np.recarray  # FAILURE (k,), still to come and past
     sight: np.ndarray  # (N, N): 1 if within range and no body between
     heard: np.ndarray  # (N, N): cycle at which i last heard j
     links: np.ndarray  # (N, N - 1): in which graphs body i and its n-th neighbour are linked, the observers'
@@ -96,6 +98,7 @@ def begin(
         commands=records(COMMAND, count),
         charts=make_charts(crew.robots, p, arena),
         beacons=arena.beacons.copy(),
+        failures=make_failures(p, seed),
         sight=np.zeros((count, count), np.int64),
         heard=np.full((count, count), NEVER, np.int64),
         links=np.zeros((count, max(1, count - 1)), np.int64),
