@@ -9,10 +9,10 @@ from formicarium.trial.situated import act, move, sense
 
 @compiled
 def run(state, cycles):
-    """Advance a trial by so many control cycles."""
+    """Advance a trial by so many control cycles, or until it is over or a master waits for a new plan."""
     clock = state.clock[0]
     for _ in range(cycles):
-        if clock.finished == 1:
+        if clock.finished == 1 or state.survey[0].asked == 1:
             return
 
         # Some fail, in trials that ask for it.

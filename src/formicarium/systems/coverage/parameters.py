@@ -95,6 +95,19 @@ class BehaviourTable(Table):
         60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
     )
 
+    silence_cycles: int = number(
+        0,
+        "cycles",
+        "a master of a mission without a newer word for so long is given up, and the lowest number alive follows it; "
+        "0: nobody does [paper; choice ST-48: 5 s]",
+        ge=0,
+    )
+    patience_cycles: int = number(
+        600, "cycles", "a group of less than half of the swarm waits so long to meet others first [choice ST-48]", ge=1
+    )
+    placing_share: float = number(
+        0.02, "1", "of what a neighbour makes of a robot's place in the map, in each cycle [choice]", gt=0, le=1
+    )
     census_cycles: int = number(
         0,
         "cycles",
@@ -242,7 +255,7 @@ class CoverageParameters(BaseModel):
     @model_validator(mode="after")
     def mission_fits(self) -> "CoverageParameters":
         """Refuse a plan that cannot be flown."""
-        check_mission(self.mission, self.tasks.programme, self.swarm.robots)
+        check_mission(self.mission, self.tasks.programme, self.swarm.robots, self.behaviour.silence_cycles)
         return self
 
     @model_validator(mode="after")
