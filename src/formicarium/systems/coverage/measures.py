@@ -12,6 +12,7 @@ from formicarium.observers.prominences import TARGETS, see_axis
 from formicarium.observers.spectrum import lambda_2
 from formicarium.robots.footbot import ARMS
 from formicarium.systems.coverage.credit import give_credit, mission_columns
+from formicarium.systems.coverage.listening import round_of
 from formicarium.systems.coverage.memory import Mode, Planning, Stage
 from formicarium.trial.events import write_event
 
@@ -35,6 +36,7 @@ class EventKind(IntEnum):
     WORKED = 10  # a task of a mission has been worked on for as long as it takes; subject: task; value: cycles
     FOLLOWED = 11  # a robot has taken the master's part; value: how many have had it, with this one
     PLANNED = 12  # the master has a new plan of what is left; subject: its slots; value: how many new ones so far
+    AIMED = 13  # an arm of a slot that was not planned before the trial; subject: arm; value: task; detail: round
 
 
 class Role(IntEnum):
@@ -58,6 +60,7 @@ SURVEY = np.dtype(
         ("term", "i8"),  # newest master that is known of
         ("plans", "i8"),  # new ones of this master's
         ("planned", "i8"),  # new ones of all masters
+        ("aimed", "i8"),  # round of the last slot whose tasks were told
         ("asked", "i8"),  # 1 while a master waits for a new plan
         ("structure_every", "i8"),  # cycles
         ("spectrum_every", "i8"),
@@ -138,7 +141,7 @@ def note_master(state):
     for place in range(len(state.robots)):
         i = state.world.lists[place].order
         memory = state.memories[i]
-        if state.robots[i].alive == 0 or memory.master == 0 or memory.term == 0:
+        if state.robots[i].alive == 0 or memory.master == 0:
             continue
         if memory.planning == Planning.ASKED:
             survey.asked = 1
@@ -154,6 +157,11 @@ def note_master(state):
         survey.planned += 1
         who = state.robots[survey.master].identity
         write_event(clock, state.events, EventKind.PLANNED, who, memory.slot_count, survey.planned, 0)
+    if (survey.planned > 0 or survey.term > 1) and memory.arm_count > 0 and round_of(memory.epoch) > survey.aimed:
+        survey.aimed = round_of(memory.epoch)
+        for k in range(memory.arm_count):
+            who = state.robots[survey.master].identity
+            write_event(clock, state.events, EventKind.AIMED, who, k + 1, memory.arms[k].task, survey.aimed)
 
 
 @compiled

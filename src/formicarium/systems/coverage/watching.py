@@ -208,6 +208,8 @@ def tell(event: Any) -> str:
             return f"robot {robot} takes the master's part, the {value}. to have it"
         case EventKind.PLANNED:
             return f"the master plans what is left anew, in {subject} slot{'s' * (subject > 1)}"
+        case EventKind.AIMED:
+            return f"arm {subject} is for task {value} now"
         case EventKind.DIED:
             return f"robot {robot} dies"
         case _:
