@@ -48,8 +48,12 @@ def parameters_with_map(
     asked: Any = parameters_of(system, setting, None, settings)
     instance = read_instance(file, robots, asked.mission.planning_range)
     refuse_what_arms_cannot_do(instance, file)
-    planned = with_values(parameters_of(system, setting, None, ()), mission_values(instance, file))
-    return with_settings(planned, settings)
+    return with_settings(planned_parameters(system, instance, file, setting), settings)
+
+
+def planned_parameters(system: System, instance: Instance, file: str, setting: int | None = None) -> BaseModel:
+    """Plan a mission and return the parameters of its trials, with all that a map's missions switch on."""
+    return with_values(parameters_of(system, setting, None, ()), mission_values(instance, file))
 
 
 def refuse_what_arms_cannot_do(instance: Instance, file: str) -> None:
