@@ -34,9 +34,19 @@ def answer(state: Any) -> None:
 
 
 def plan_anew(memory: np.record, chart: np.record) -> None:
-    """Write a plan of what is left into the master's memory, from where it stands and with whom it has counted."""
-    from formicarium.scheduling.instance import Instance, Task, Team
-    from formicarium.scheduling.solver import solve
+    """Write a plan of what is left into the master's memory, from where it stands and with whom it has counted.
+
+    Raises:
+        ModuleNotFoundError: if the scheduler's extra is not installed; says what to type.
+    """
+    try:
+        from formicarium.scheduling.instance import Instance, Task, Team
+        from formicarium.scheduling.solver import solve
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            f"mission.replans = {int(chart.replans)}: a new plan needs {error.name}, which is not installed. "
+            'Type: python -m pip install "formicarium[scheduling]"; or set mission.replans to 0'
+        ) from error
 
     places = [k for k in range(int(chart.task_count)) if not int(memory.credited) >> k & 1]
     start = (float(memory.way_ahead), float(memory.way_aside))
