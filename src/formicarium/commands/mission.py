@@ -19,6 +19,8 @@ ATTEMPTS = 2  # at a slot [choice]
 SLOT_TIME = 900.0  # s, that a trial lasts at most for each attempt at a slot [choice]
 ERUPT_LIMIT = 300.0  # s, an eruption's time-out (ST-48)
 SWEEP_CYCLES = 600  # an arm looks for its task between its robots after and within a minute [choice]
+SILENCE_CYCLES = 50  # 5 s without word of the master, then another follows it (ST-48)
+REPLANS = 8  # of what is left, at most [choice ST-72]
 CENSUS_CYCLES = 300  # half a minute: a robot that is silent for longer is not waited for [choice ST-71]
 PLANNING_TIME = 60.0  # s, then the best plan so far is flown
 # Never farther than the circle: the paper's octagon plans arms that are too long (ST-54).
@@ -46,8 +48,12 @@ def parameters_with_map(
     asked: Any = parameters_of(system, setting, None, settings)
     instance = read_instance(file, robots, asked.mission.planning_range)
     refuse_what_arms_cannot_do(instance, file)
-    planned = with_values(parameters_of(system, setting, None, ()), mission_values(instance, file))
-    return with_settings(planned, settings)
+    return with_settings(planned_parameters(system, instance, file, setting), settings)
+
+
+def planned_parameters(system: System, instance: Instance, file: str, setting: int | None = None) -> BaseModel:
+    """Plan a mission and return the parameters of its trials, with all that a map's missions switch on."""
+    return with_values(parameters_of(system, setting, None, ()), mission_values(instance, file))
 
 
 def refuse_what_arms_cannot_do(instance: Instance, file: str) -> None:
@@ -107,10 +113,19 @@ def mission_values(instance: Instance, file: str) -> dict[str, Any]:
         "behaviour.sweep_cycles": SWEEP_CYCLES,
         "behaviour.strays": "return",
         "behaviour.census_cycles": CENSUS_CYCLES,
+        "behaviour.silence_cycles": SILENCE_CYCLES,
         "behaviour.agreed_cycles": 0,  # with messages lost a count is seldom whole, and never for long
         "mission.planning_range": instance.spacing,
+        "mission.paths": instance.paths,
+        "mission.region": _relative_region(instance),
+        "mission.replans": REPLANS,
         "mission.slots": [_slot_values(instance, slot) for slot in slots],
     }
+
+
+def _relative_region(instance: Instance) -> list[float]:
+    (x, y), (x0, y0, x1, y1) = instance.start, instance.region
+    return [x0 - x, y0 - y, x1 - x, y1 - y]
 
 
 def _slot_values(instance: Instance, slot: Any) -> dict[str, Any]:
@@ -126,6 +141,7 @@ def _slot_values(instance: Instance, slot: Any) -> dict[str, Any]:
                 "y": tasks[arm.task].y - y,
                 "duration": tasks[arm.task].duration,
                 "robots": arm.relays + tasks[arm.task].robots,
+                "after": [earlier for earlier, later in instance.priorities if later == arm.task],
             }
             for arm in slot.arms
         ],

@@ -16,11 +16,13 @@ from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
 from formicarium.studies import prominence_figures as figures
 from formicarium.studies.chart import Chart
+from formicarium.studies.missions import reach_rows
 from formicarium.studies.prominences import Row, cells_of, table_1_rows
 
 TABLE_1, ARMS, SAFE, DROPS = "coverage-table-1", "coverage-arms", "coverage-safe", "coverage-drops"
 OCCLUSION, PICTURES = "coverage-occlusion", "coverage-figures"
 LABORATORY, SCALE, TOURS = "coverage-laboratory", "coverage-scale", "coverage-tours"
+PLANNING_RANGE = "coverage-planning-range"
 DESIGNS = {
     "table-1": (TABLE_1,),
     "arms": (ARMS,),
@@ -32,6 +34,7 @@ DESIGNS = {
     "laboratory": (LABORATORY,),
     "scale": (SCALE,),
     "tours": (TOURS,),
+    "planning-range": (PLANNING_RANGE,),
     "all": (SAFE, TABLE_1, TOURS, ARMS, PICTURES, LABORATORY, DROPS, OCCLUSION, SCALE),
 }
 CHARTS: dict[str, tuple[Callable[[Sequence[Row]], Chart], str]] = {
@@ -81,6 +84,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
             written.append(_write_table(cells_of(found, _factors(studies[name])), folder / f"{name}.csv"))
     if rows.get(TABLE_1):
         written.append(_write_table(table_1_rows(rows[TABLE_1]), folder / "table-1.csv"))
+    if rows.get(PLANNING_RANGE):
+        written.append(_write_table(reach_rows(rows[PLANNING_RANGE]), folder / "planning-range.csv"))
     for name in SHOWN if figure == "all" else [figure]:
         written += draw_swarms(name, folder) if name in SHOWN else []
     with replacing(folder / "report.md") as temporary:

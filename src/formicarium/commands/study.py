@@ -16,8 +16,8 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
 Figure = Literal[
     "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
-    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "table-2-time",
-    "table-2-travel", "paper-model", "hundred-tasks", "all",
+    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions", "planning-range",
+    "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
 ]  # fmt: skip
 
 
@@ -65,8 +65,9 @@ def study(
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
         S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
         in all) of partitioning; 2 of connectivity; 4, 5, table-1, arms, safe, drops, occlusion,
-        laboratory, scale and tours of coverage; table-2-time, table-2-travel (with figures 7 and 8),
-        paper-model (in HiGHS, one instance in ten), hundred-tasks and scale (up to 1,000) of scheduling.
+        laboratory, scale, tours, planning-range and missions of coverage (the last two not in
+        all); table-2-time, table-2-travel (with figures 7 and 8), paper-model (in HiGHS, one
+        instance in ten), hundred-tasks and scale (up to 1,000) of scheduling.
     out
         Folder of the campaigns, figures, tables and report.
     runs
@@ -153,13 +154,16 @@ def _connectivity(
 def _coverage(
     figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
 ) -> int:
-    from formicarium.commands import prominences
+    from formicarium.commands import missions, prominences
     from formicarium.commands.errors import UserError
 
-    if figure not in prominences.DESIGNS:
-        raise UserError(f"--figure {figure}: the study coverage has {', '.join(prominences.DESIGNS)}")
+    if figure not in (*prominences.DESIGNS, "missions"):
+        raise UserError(f"--figure {figure}: the study coverage has {', '.join(prominences.DESIGNS)}, missions")
     if len(sources) > 1:
         raise UserError("--sources: the study coverage takes one")
+    if figure == "missions":
+        code = 0 if collect_only or sources else missions.run_study(out, runs, workers)
+        return max(code, missions.draw_study(out, runs, sources[0] if sources else None))
     code = 0 if collect_only or sources else prominences.run_study(figure, out, runs, workers)
     return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))
 

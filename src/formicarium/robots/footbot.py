@@ -127,6 +127,18 @@ SAID = [
     ("aside", "f8"),
     ("farthest", "f8"),  # m, greatest gradient among the speaker and those behind it
     ("counted", "i8"),  # how many those are
+    # where a master may be followed by another one (ST-48); nothing of it is sent elsewhere
+    ("term", "i8"),  # counts the masters; 0: nobody follows the first
+    ("leader", "i8"),  # number of the robot where the speaker's ways end, 0: none known
+    ("office", "i8"),  # 1 if that one leads, 0 if it only stands for the part
+    ("beat", "i8"),  # newest word of it: its own clock when it said it
+    ("home_ahead", "f8"),  # m, where the master was then, in the map's frame
+    ("home_aside", "f8"),
+    ("placed", "i8"),  # 1 if the speaker knows where it is in the map's frame
+    ("way_ahead", "f8"),  # m, where that is
+    ("way_aside", "f8"),
+    ("facing", "f8"),  # rad
+    ("credited", "i8"),  # a bit for each task that is known to be done
     ("arm_count", "i8"),  # arms spoken of
     ("arms", ARM, ARMS),
 ]

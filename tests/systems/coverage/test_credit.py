@@ -21,7 +21,9 @@ RUNS = {
     "faithful, bare": (BARE, {}, 0.0, 2),
     "thin radio": ({"variant": "buzz", "arm_choice": "quota"}, {"radio_loss": 0.3}, 0.0, 3),
     "robots die": ({"variant": "safe", **ON}, {}, 0.002, 4),
+    "master dies": ({"variant": "safe", **ON, "silence_cycles": 50, "census_cycles": 300}, NOISE, 0.0, 5),
 }
+DEATH = {"count": 1, "aim": "master", "earliest": 90.0, "latest": 91.0}
 
 
 def parameters(behaviour, footbot, failure_rate):
@@ -30,7 +32,8 @@ def parameters(behaviour, footbot, failure_rate):
         8,
         swarm={"time_cap": 500.0, "failure_rate": failure_rate},
         tasks={"programme": "mission", "erupt_limit": 100.0},
-        mission={"slots": SLOTS},
+        mission={"slots": SLOTS, "replans": 3 if "silence_cycles" in behaviour else 0},
+        failures=DEATH if "silence_cycles" in behaviour else {},
         behaviour=behaviour,
         footbot=footbot,
     )
@@ -61,6 +64,7 @@ def reckoned(p, trial):
     living = np.ones(len(column), bool)
     mode, epoch = np.zeros(len(column), int), np.zeros(len(column), int)
     first = np.cumsum([0, *(len(slot.tasks) for slot in p.mission.slots)])
+    aims = {(k, arm): first[k] + arm for k, slot in enumerate(p.mission.slots) for arm in range(len(slot.tasks))}
     sites = np.array([(task.x, task.y) for task in p.mission.tasks])
     worked, parted, place = np.zeros(len(sites), int), [], 0
     for moment, after in enumerate(frames.cycle):
@@ -71,6 +75,10 @@ def reckoned(p, trial):
                 epoch[column[int(event["robot"])]] = event["value"]
             elif event["kind"] == EventKind.DIED:
                 living[column[int(event["robot"])]] = False
+            elif event["kind"] == EventKind.FOLLOWED:
+                master = column[int(event["robot"])]
+            elif event["kind"] == EventKind.AIMED:
+                aims[int(event["detail"]), int(event["subject"]) - 1] = int(event["value"]) - 1
             place += 1
         if after == 0:
             continue
@@ -80,7 +88,7 @@ def reckoned(p, trial):
         at_work = living & living[master] & (sighted == sighted[master]) & np.isin(mode, (Mode.ERUPT, Mode.HOLD))
         arm = frames.carried[moment].astype(int)
         for k, site in enumerate(sites):
-            own = (arm > 0) & (first[np.maximum(epoch - 1, 0) // 4] + arm - 1 == k)
+            own = np.array([a > 0 and aims[max(e - 1, 0) // 4, a - 1] == k for a, e in zip(arm, epoch, strict=True)])
             worked[k] += bool((at_work & own & (np.hypot(*(places - site).T) <= p.footbot.beacon_range)).any())
     return worked, np.array(parted)
 
@@ -115,6 +123,7 @@ def test_some_of_these_runs_part_and_some_lose_robots():
     rows = {run: run_trial(parameters(*RUNS[run][:3]), RUNS[run][3]).outcome for run in RUNS}
     assert max(row["lost_share_range"] for row in rows.values()) > 0.05
     assert rows["robots die"]["died"] > 0
+    assert rows["master dies"]["followed"] == 1 and rows["master dies"]["planned_anew"] >= 1
     assert {row["mission_done"] for row in rows.values()} == {0, 1}
 
 

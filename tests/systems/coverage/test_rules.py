@@ -142,7 +142,7 @@ def test_arms_are_drawn_by_weight():
     counts = np.zeros(3)
     for seed in range(40):
         state = swarm(setting=5, robots=16, seed=seed, behaviour={"arm_choice": "draw"})
-        state.charts.slots["wanted"][:, 0, :3] = (1.0, 2.0, 3.0)
+        state.memories.slots["wanted"][:, 0, :3] = (1.0, 2.0, 3.0)
         advance(state, 8)
         counts += np.bincount(state.memories.arm[1:], minlength=4)[1:4]
     assert counts / counts.sum() == pytest.approx([1 / 6, 1 / 3, 1 / 2], abs=0.06)

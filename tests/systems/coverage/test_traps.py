@@ -56,7 +56,7 @@ def test_words_travel_one_hop_a_cycle():
     """Traps 3 and 17, the light cone: who is h hops away changes no earlier than h cycles after the master."""
     state = stay(swarm(line(8), behaviour={"flee_range": 0.0}), 30)
     other = copy_of(state)
-    other.charts[0].slots[0].task_ahead[0], other.charts[0].slots[0].task_aside[0] = 3.0, 20.0
+    other.memories[0].slots[0].task_ahead[0], other.memories[0].slots[0].task_aside[0] = 3.0, 20.0
     other.memories[0].epoch += 1
     first, heard = np.full(8, -1), np.full(8, -1)
     for cycle in range(12):

@@ -101,6 +101,9 @@ def hear(packet, message, entry):
     packet.aside = message.aside
     packet.farthest = message.farthest
     packet.counted = message.counted
+    packet.term = message.term
+    if message.term > 0:
+        hear_of_leader(packet, message)
     packet.arm_count = message.arm_count
     for k in range(message.arm_count):
         packet.arms[k].task = message.arms[k].task
@@ -112,3 +115,18 @@ def hear(packet, message, entry):
         packet.arms[k].reached = message.arms[k].reached
     packet.named = 1 if entry >= 0 else 0
     packet.bearing_of_me = message.entries[entry].bearing if entry >= 0 else 0.0
+
+
+@compiled
+def hear_of_leader(packet, message):
+    """Copy what is said of the master, of the map and of what is done."""
+    packet.leader = message.leader
+    packet.office = message.office
+    packet.beat = message.beat
+    packet.home_ahead = message.home_ahead
+    packet.home_aside = message.home_aside
+    packet.placed = message.placed
+    packet.way_ahead = message.way_ahead
+    packet.way_aside = message.way_aside
+    packet.facing = message.facing
+    packet.credited = message.credited

@@ -3,6 +3,7 @@
 from formicarium.compiled import compiled
 from formicarium.control.turning import drive_towards
 from formicarium.systems.coverage.arms import choose_arm
+from formicarium.systems.coverage.election import hear_leader, is_root, rally
 from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
 from formicarium.systems.coverage.flocking import flock
 from formicarium.systems.coverage.forces import clear, press
@@ -18,6 +19,7 @@ from formicarium.systems.coverage.listening import (
 from formicarium.systems.coverage.master import lead
 from formicarium.systems.coverage.memory import Mode, Stage
 from formicarium.systems.coverage.messages import speak
+from formicarium.systems.coverage.placing import find_place
 
 SAFE = 2  # place of "safe" among the variants
 FLOCKING = 1  # place of "flocking" among the kinds of rendez-vous
@@ -38,6 +40,8 @@ def decide(reading, memory, command, table, chart, footbot):
     listen(reading, memory, table, chart)
     if memory.master == 1:
         lead(reading, memory, command, table, chart, footbot)
+    elif memory.term > 0 and memory.office == 0:
+        rally(reading, memory, command, table, footbot)
     elif memory.mode == Mode.FLOCK:
         keep_up(reading, memory, command, table, footbot)
     elif memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
@@ -54,16 +58,19 @@ def decide(reading, memory, command, table, chart, footbot):
 
 @compiled
 def listen(reading, memory, table, chart):
-    """Take in what was heard: the phase, the way to the master, the arms, the reference, and word of reached tasks."""
+    """Take in what was heard: who leads, phase, way to the master, arms, reference, place, and what is reached."""
     carry(reading, memory)
+    if memory.term > 0:
+        hear_leader(reading, memory, table, chart)
     hear_phase(reading, memory)
-    if memory.master == 1:
+    if is_root(memory, reading.identity):
         stay_master(memory, reading.cycle)
     else:
         find_way(reading, memory, table, chart)
         choose_arm(reading, memory, table)
         find_reference(reading, memory)
         take_directions(reading, memory, table)
+        find_place(reading, memory, table)
     count_behind(reading, memory)
     hear_reached(reading, memory, table)
 

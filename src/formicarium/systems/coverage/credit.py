@@ -69,17 +69,20 @@ def mission_columns(state: Any, phases: Sequence[tuple[int, int]]) -> dict[str, 
     """
     cycle_time = float(state.world.settings[0].cycle_time)
     end = int(state.clock[0].cycle)
-    chart = state.charts[state.survey[0].master]
+    survey = state.survey[0]
+    first = state.charts[int(np.flatnonzero(state.robots.key == 0)[0])]
     tasks = np.asarray(state.tasks)
-    planned = sum(int(slot.hold_cycles) for slot in chart.slots[: int(chart.slot_count)])
+    planned = sum(int(slot.hold_cycles) for slot in first.slots[: int(first.slot_count)])
     done = tasks["done_at"] >= 0
     row: dict[str, int | float | str | None] = {
         "tasks_done": int(done.sum()),
         "mission_done": int(done.all()),
         "mission_s": round((int(tasks["done_at"].max()) + 1) * cycle_time, 6) if done.all() else None,
         "planned_s": round(planned * cycle_time, 6),
-        "slots": int(chart.slot_count),
+        "slots": int(first.slot_count),
     }
+    if first.task_count > 0:  # others may follow the master, or new plans be made
+        row |= {"followed": max(0, int(survey.term) - 1), "planned_anew": int(survey.planned)}
     ends = [cycle for cycle, _ in phases[1:]] + [end]
     for mode in (Mode.FLOCK, Mode.ERUPT, Mode.HOLD, Mode.GATHER):
         cycles = sum(stop - start for (start, called), stop in zip(phases, ends, strict=True) if called == mode)

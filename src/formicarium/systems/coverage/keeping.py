@@ -7,6 +7,7 @@ together are a tree to the master, so the swarm holds together as long as each o
 import math
 
 from formicarium.compiled import compiled
+from formicarium.systems.coverage.listening import goes_with
 from formicarium.systems.coverage.memory import LINKS
 
 HYSTERESIS = 0.8  # another anchor must be nearer by this factor
@@ -61,6 +62,8 @@ def choose_anchor(reading, memory, table, limit):
     for k in range(reading.packet_count):
         packet = reading.packets[k]
         if packet.linked == 0 or packet.gradient > memory.gradient - table.anchor_margin:
+            continue
+        if not goes_with(memory, packet):
             continue
         if packet.sender == memory.anchor:
             own = k

@@ -85,6 +85,14 @@ def hear_phase(reading, memory):
 
 
 @compiled
+def goes_with(memory, packet):
+    """Tell whether a neighbour's ways end where one's own do; they all do where nobody follows the first master."""
+    if memory.term == 0:
+        return True
+    return packet.term == memory.term and packet.leader == memory.leader and packet.office == memory.office
+
+
+@compiled
 def find_way(reading, memory, table, chart):
     """Find the shortest way to the master: D_i = min over neighbours of measured range + D_j (ST-34).
 
@@ -103,7 +111,7 @@ def find_way(reading, memory, table, chart):
         if packet.sender == memory.parent:
             parent_heard = True
         if packet.linked == 1 and packet.parent != reading.identity and packet.hops + 1 < chart.robots:
-            if packet.range + packet.gradient < gradient:
+            if goes_with(memory, packet) and packet.range + packet.gradient < gradient:
                 gradient = packet.range + packet.gradient
                 best = k
     fresh = memory.linked == 1 and reading.cycle - memory.parent_heard <= table.fresh_cycles
@@ -157,7 +165,7 @@ def count_behind(reading, memory):
         memory.arms[arm].count = 1 if memory.arm == arm + 1 else 0
     for k in range(reading.packet_count):
         packet = reading.packets[k]
-        if packet.parent == reading.identity:
+        if packet.parent == reading.identity and goes_with(memory, packet):
             memory.counted += packet.counted
             memory.farthest = max(memory.farthest, packet.farthest)
             if round_of(packet.epoch) == round_of(memory.epoch):

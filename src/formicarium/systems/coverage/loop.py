@@ -1,18 +1,22 @@
-"""The main loop of the coverage system: sense, decide, act, move, note."""
+"""The main loop of the coverage system: sense, decide, act, move, note; and first who fails."""
 
 from formicarium.compiled import compiled
 from formicarium.systems.coverage.behaviour import decide
+from formicarium.systems.coverage.failures import fail
 from formicarium.systems.coverage.measures import note
 from formicarium.trial.situated import act, move, sense
 
 
 @compiled
 def run(state, cycles):
-    """Advance a trial by so many control cycles."""
+    """Advance a trial by so many control cycles, or until it is over or a master waits for a new plan."""
     clock = state.clock[0]
     for _ in range(cycles):
-        if clock.finished == 1:
+        if clock.finished == 1 or state.survey[0].asked == 1:
             return
+
+        # Some fail, in trials that ask for it.
+        fail(state)
 
         # Everybody hears what was said in the last cycle, with range and bearing.
         sense(state)

@@ -6,9 +6,10 @@ from formicarium.angles import wrapped
 from formicarium.compiled import compiled
 from formicarium.systems.coverage.forces import clear, wish
 from formicarium.systems.coverage.listening import forget_arms
-from formicarium.systems.coverage.memory import Mode, Stage
+from formicarium.systems.coverage.memory import Mode, Planning, Stage
 
 QUOTA = 1  # place of "quota" among the choices
+SPARE = 10  # cycles of work more than a task wants, by word alone, before the master takes it for done
 ENDLESS = 0  # place of "erupt" among the programmes: the one without further phases
 
 
@@ -29,6 +30,7 @@ def begin_slot(memory, table, cycle):
     memory.held = 0
     for k in range(len(memory.tally)):
         memory.tally[k] = 0
+        memory.word[k] = 0
     call_out(memory, Mode.FLOCK, table.spacing, cycle)
 
 
@@ -37,7 +39,9 @@ def lead(reading, memory, command, table, chart, footbot):
     """Do the master's part in the present phase, and go on to the next when its time has come."""
     cycle = reading.cycle
     clear(command)
-    slot = chart.slots[memory.slot]
+    slot = memory.slots[memory.slot]
+    memory.home_ahead = memory.way_ahead
+    memory.home_aside = memory.way_aside
     take_census(memory, table, chart, cycle)
     if memory.counted == memory.crew:
         memory.all_heard = cycle
@@ -48,29 +52,116 @@ def lead(reading, memory, command, table, chart, footbot):
         if travel(reading, memory, command, table, chart, slot, footbot):
             call_out(memory, Mode.ERUPT, table.spacing, cycle)
     elif memory.mode == Mode.ERUPT:
-        if chart.programme != ENDLESS and (all_reached(memory) or cycle - memory.since > chart.erupt_cycles):
+        note_work(memory, table, chart, slot, cycle)
+        if chart.programme != ENDLESS and (is_out(memory, chart) or cycle - memory.since > chart.erupt_cycles):
             call_out(memory, Mode.HOLD, table.spacing, cycle)
     elif memory.mode == Mode.HOLD:
+        note_work(memory, table, chart, slot, cycle)
         if all_reached(memory):
             memory.held += 1
-        if memory.held >= slot.hold_cycles or cycle - memory.since > slot.hold_limit:
+        enough = is_credited(memory, slot) if chart.replans > 0 else memory.held >= slot.hold_cycles
+        if enough or cycle - memory.since > slot.hold_limit:
             call_out(memory, Mode.GATHER, table.gather_spacing, cycle)
     elif memory.mode == Mode.GATHER:
-        if is_compact(memory, table) or cycle - memory.since > chart.gather_cycles:
-            if memory.held < slot.hold_cycles and memory.tries + 1 < chart.attempts:
-                memory.tries += 1
-                begin_slot(memory, table, cycle)
-            elif memory.slot + 1 < chart.slot_count:
-                memory.tries = 0
-                memory.slot += 1
-                begin_slot(memory, table, cycle)
-            else:
-                memory.done = 1
+        if memory.planning == Planning.ANSWERED:
+            begin_plan(memory, table, cycle)
+        elif is_compact(memory, table) or cycle - memory.since > chart.gather_cycles:
+            go_on(memory, table, chart, slot, cycle)
     memory.stage = Stage.FLOCKING if memory.mode == Mode.FLOCK else Stage.WAITING
     if memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
         point_out(memory, slot)
         if table.arm_choice == QUOTA and not all_reached(memory):
             correct_arms(memory, table, chart, slot, cycle)
+
+
+@compiled
+def go_on(memory, table, chart, slot, cycle):
+    """Go on from the end of a slot: once more, to the next one, to a new plan of what is left, or to the end.
+
+    A master that has followed another does not know how far that one was: it plans anew, or goes through the plan from
+    its beginning and leaves out slots that are done.
+    """
+    left = memory.owing == 1 or not is_credited(memory, slot) or memory.slot + 1 == memory.slot_count
+    if left and memory.plans < chart.replans and count_left(memory, chart) > 0:
+        memory.planning = Planning.ASKED
+        return
+    again = chart.replans == 0 and memory.held < slot.hold_cycles and memory.tries + 1 < chart.attempts
+    if memory.owing == 1:
+        memory.owing = 0
+        memory.slot = -1
+    elif again:
+        memory.tries += 1
+        begin_slot(memory, table, cycle)
+        return
+    memory.tries = 0
+    memory.slot += 1
+    while memory.term > 1 and memory.slot < memory.slot_count and is_credited(memory, memory.slots[memory.slot]):
+        memory.slot += 1
+    if memory.slot < memory.slot_count:
+        begin_slot(memory, table, cycle)
+    else:
+        memory.slot = memory.slot_count - 1
+        memory.done = 1
+
+
+@compiled
+def begin_plan(memory, table, cycle):
+    """Begin the first slot of a new plan."""
+    memory.planning = Planning.NONE
+    memory.owing = 0
+    memory.tries = 0
+    memory.slot = 0
+    begin_slot(memory, table, cycle)
+
+
+@compiled
+def note_work(memory, table, chart, slot, cycle):
+    """Count the cycles of work on each task that word has come of, and take tasks for done that have had enough.
+
+    Word that lives for n more cycles was new n cycles less than its whole life ago, so ``cycle + n`` grows by one with
+    each cycle of work, however long the way.
+    """
+    if chart.task_count == 0:
+        return
+    for k in range(memory.arm_count):
+        if memory.arms[k].reached == 0:
+            continue
+        word = cycle + memory.arms[k].reached
+        place = slot.task[k] - 1
+        newer = word - memory.word[k]
+        if newer > 0:
+            memory.worked[place] += min(newer, table.fresh_cycles) if memory.word[k] > 0 else 1
+            memory.word[k] = word
+        if memory.worked[place] >= chart.tasks[place].cycles + SPARE:
+            memory.credited |= 1 << place
+
+
+@compiled
+def is_credited(memory, slot):
+    """Tell whether all tasks of a slot are done, as far as word has come."""
+    for k in range(slot.task_count):
+        if memory.credited & (1 << (slot.task[k] - 1)) == 0:
+            return False
+    return True
+
+
+@compiled
+def is_out(memory, chart):
+    """Tell whether every arm is at its task, or where new plans are made, has done it."""
+    for k in range(memory.arm_count):
+        done = chart.replans > 0 and memory.credited & (1 << (memory.arms[k].task - 1)) != 0
+        if memory.arms[k].reached == 0 and not done:
+            return False
+    return memory.arm_count > 0
+
+
+@compiled
+def count_left(memory, chart):
+    """Return how many tasks of the map are not done, as far as word has come."""
+    count = 0
+    for place in range(chart.task_count):
+        count += 1 if memory.credited & (1 << place) == 0 else 0
+    return count
 
 
 @compiled

@@ -12,7 +12,8 @@ from formicarium.observers.prominences import TARGETS, see_axis
 from formicarium.observers.spectrum import lambda_2
 from formicarium.robots.footbot import ARMS
 from formicarium.systems.coverage.credit import give_credit, mission_columns
-from formicarium.systems.coverage.memory import Mode, Stage
+from formicarium.systems.coverage.listening import round_of
+from formicarium.systems.coverage.memory import Mode, Planning, Stage
 from formicarium.trial.events import write_event
 
 LONG_ARM = 20.0  # m, of the claim on the density of long arms (ST-66)
@@ -33,6 +34,9 @@ class EventKind(IntEnum):
     DIED = 8
     DONE = 9  # the master's programme is over
     WORKED = 10  # a task of a mission has been worked on for as long as it takes; subject: task; value: cycles
+    FOLLOWED = 11  # a robot has taken the master's part; value: how many have had it, with this one
+    PLANNED = 12  # the master has a new plan of what is left; subject: its slots; value: how many new ones so far
+    AIMED = 13  # an arm of a slot that was not planned before the trial; subject: arm; value: task; detail: round
 
 
 class Role(IntEnum):
@@ -52,7 +56,12 @@ class Role(IntEnum):
 SEEN = np.dtype([("role", "i8"), ("epoch", "i8"), ("arm", "i8")], align=True)
 SURVEY = np.dtype(
     [
-        ("master", "i8"),  # its body
+        ("master", "i8"),  # its body; of several the newest, and of those the one of the lowest number
+        ("term", "i8"),  # newest master that is known of
+        ("plans", "i8"),  # new ones of this master's
+        ("planned", "i8"),  # new ones of all masters
+        ("aimed", "i8"),  # round of the last slot whose tasks were told
+        ("asked", "i8"),  # 1 while a master waits for a new plan
         ("structure_every", "i8"),  # cycles
         ("spectrum_every", "i8"),
         ("looks", "i8"),  # at the structure of the whole range graph
@@ -103,6 +112,7 @@ def note(state):
     """Write down what has happened in this cycle. Nothing here is seen by a robot."""
     clock = state.clock[0]
     survey = state.survey[0]
+    note_master(state)
     note_robots(state)
     find_links(state)
     for graph in range(GRAPHS):
@@ -120,6 +130,48 @@ def note(state):
     if state.memories[survey.master].done == 1 and clock.finished == 0:
         clock.finished = 1
         write_event(clock, state.events, EventKind.DONE, state.robots[survey.master].identity, 0, 0, 0)
+
+
+@compiled
+def note_master(state):
+    """See who leads now, if that is another than before, and whether somebody waits for a new plan."""
+    clock = state.clock[0]
+    survey = state.survey[0]
+    survey.asked = 0
+    for place in range(len(state.robots)):
+        i = state.world.lists[place].order
+        memory = state.memories[i]
+        if state.robots[i].alive == 0 or memory.master == 0:
+            continue
+        if memory.planning == Planning.ASKED:
+            survey.asked = 1
+        if leads_rather(state, i, survey.master):
+            survey.master = i
+            survey.plans = 0
+    memory = state.memories[survey.master]
+    if memory.term > max(1, survey.term):
+        survey.term = memory.term
+        write_event(clock, state.events, EventKind.FOLLOWED, state.robots[survey.master].identity, 0, memory.term, 0)
+    if memory.plans > survey.plans:
+        survey.plans = memory.plans
+        survey.planned += 1
+        who = state.robots[survey.master].identity
+        write_event(clock, state.events, EventKind.PLANNED, who, memory.slot_count, survey.planned, 0)
+    if (survey.planned > 0 or survey.term > 1) and memory.arm_count > 0 and round_of(memory.epoch) > survey.aimed:
+        survey.aimed = round_of(memory.epoch)
+        for k in range(memory.arm_count):
+            who = state.robots[survey.master].identity
+            write_event(clock, state.events, EventKind.AIMED, who, k + 1, memory.arms[k].task, survey.aimed)
+
+
+@compiled
+def leads_rather(state, i, master):
+    """Tell whether body ``i``, a living master, is to be looked at instead of ``master``."""
+    if state.robots[master].alive == 0 or state.memories[master].master == 0:
+        return True
+    if state.memories[i].term != state.memories[master].term:
+        return state.memories[i].term > state.memories[master].term
+    return state.robots[i].identity < state.robots[master].identity
 
 
 @compiled
@@ -271,10 +323,15 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         row[f"{name}_called_s"] = seconds(calls["cycle"].min(), cycle_time) if len(calls) else None
         row[f"{name}_spread_s"] = float(np.ptp(calls["cycle"])) * cycle_time if len(calls) else None
     if state.tasks[0].needed > 0:
-        master = state.robots[survey.master].identity
-        calls = events[(events["kind"] == EventKind.PHASE) & (events["robot"] == master)]
-        row |= mission_columns(state, [(int(call["cycle"]), int(call["subject"])) for call in calls])
+        row |= mission_columns(state, calls_of(events))
     return row
+
+
+def calls_of(events: np.ndarray) -> list[tuple[int, int]]:
+    """Return (cycle, Mode) of each phase from when its caller, the first to hear of it, has called it out."""
+    heard = events[events["kind"] == EventKind.PHASE]
+    _, firsts = np.unique(heard["value"], return_index=True)  # events are in the order of cycles
+    return sorted((int(heard["cycle"][k]), int(heard["subject"][k])) for k in firsts)
 
 
 def arms_of(state: Any, cycle_time: float) -> dict[str, int | float | str | None]:

@@ -9,6 +9,7 @@ from formicarium.robots.footbot import ARM, ARMS
 NEVER = -1_000_000  # cycle long before the trial
 LINKS = 32  # links that a robot can keep at once (safe)
 SLOTS = 16  # of a mission, at most
+TALLIED = 63  # tasks of a mission whose work the master tells apart, a bit each
 
 
 class Mode(IntEnum):
@@ -34,6 +35,14 @@ class Stage(IntEnum):
     GATHERING = 7
 
 
+class Planning(IntEnum):
+    """Whether the master wants a new plan of what is left."""
+
+    NONE = 0
+    ASKED = 1
+    ANSWERED = 2
+
+
 # A neighbour whose link must not break (safe).
 LINK = np.dtype(
     [
@@ -41,6 +50,23 @@ LINK = np.dtype(
         ("heard", "i8"),  # cycle
         ("before", "f8"),  # m, where it is: ahead,
         ("beside", "f8"),  # m, and aside
+    ],
+    align=True,
+)
+
+# Tasks that are done at the same time round one point: places by way, in the frame in which the master starts.
+SLOT = np.dtype(
+    [
+        ("point_ahead", "f8"),  # m, point of deployment
+        ("point_aside", "f8"),
+        ("travel", "i8"),  # 1 if the swarm flocks there first
+        ("task_count", "i8"),
+        ("task", "i8", ARMS),  # number of each arm's task
+        ("task_ahead", "f8", ARMS),  # m
+        ("task_aside", "f8", ARMS),
+        ("wanted", "f8", ARMS),  # weight of each arm
+        ("hold_cycles", "i8"),  # for which all tasks are held at once
+        ("hold_limit", "i8"),  # cycles after which the swarm gathers whether they were or not
     ],
     align=True,
 )
@@ -80,7 +106,7 @@ MEMORY = np.dtype(
         ("flips", "i8"),  # how often that has changed
         ("spiral", "f8"),  # rad, how the present spiral opens
         ("turning", "i8"),  # Turning of the wheels
-        # where it is by its own odometry, from where it started
+        # where it is by its own odometry, from where it started; once it is placed, in the map's frame
         ("way_ahead", "f8"),  # m
         ("way_aside", "f8"),  # m
         ("facing", "f8"),  # rad
@@ -88,11 +114,31 @@ MEMORY = np.dtype(
         ("anchor", "i8"),  # number of the neighbour upstream
         ("link_count", "i8"),
         ("links", LINK, LINKS),  # of them so many
+        # who leads, and what a successor has to know (ST-48)
+        ("term", "i8"),  # counts the masters; 0: nobody follows the first
+        ("leader", "i8"),  # number of the robot where its ways end, 0: none known
+        ("office", "i8"),  # 1 if that one leads, 0 if it only stands for the part
+        ("beat", "i8"),  # newest word of it: its own clock when it said it
+        ("beat_heard", "i8"),  # cycle
+        ("given_up", "i8"),  # number of the last one that was silent for too long
+        ("given_up_beat", "i8"),  # newest word of that one
+        ("standing", "i8"),  # cycle since which it stands for the part itself
+        ("home_ahead", "f8"),  # m, where the last master was, in the map's frame
+        ("home_aside", "f8"),
+        ("placed", "i8"),  # 1 if it knows where it is in the map's frame
+        ("credited", "i8"),  # a bit for each task that is known to be done
         # the master's own
         ("corrected", "i8"),  # cycle of the last correction of the arms
         ("tally", "i8", ARMS),  # robots of each arm, counted in the last cycle
         ("agreed", "i8"),  # cycles for which that was everybody and has not changed
+        ("slots", SLOT, SLOTS),  # the plan in hand
+        ("slot_count", "i8"),  # of them so many
         ("slot", "i8"),  # the plan's, that it is at
+        ("planning", "i8"),
+        ("plans", "i8"),  # new ones so far
+        ("owing", "i8"),  # 1 if it has taken over and not gone on yet
+        ("worked", "i8", TALLIED),  # cycles of work on each task that it has had word of
+        ("word", "i8", ARMS),  # how new the newest word from each arm's task is
         ("tries", "i8"),  # of it before
         ("held", "i8"),  # cycles for which all tasks of the slot were held
         ("crew", "i8"),  # how many robots it reckons with, itself too
@@ -105,24 +151,18 @@ MEMORY = np.dtype(
     align=True,
 )
 
-# Tasks that are done at the same time round one point: places by way, in the frame in which the master starts.
-SLOT = np.dtype(
+# A task of the map.
+CHARTED = np.dtype(
     [
-        ("point_ahead", "f8"),  # m, point of deployment
-        ("point_aside", "f8"),
-        ("travel", "i8"),  # 1 if the swarm flocks there first
-        ("task_count", "i8"),
-        ("task", "i8", ARMS),  # number of each arm's task
-        ("task_ahead", "f8", ARMS),  # m
-        ("task_aside", "f8", ARMS),
-        ("wanted", "f8", ARMS),  # weight of each arm
-        ("hold_cycles", "i8"),  # for which all tasks are held at once
-        ("hold_limit", "i8"),  # cycles after which the swarm gathers whether they were or not
+        ("ahead", "f8"),  # m, in the map's frame
+        ("aside", "f8"),
+        ("cycles", "i8"),  # of work
+        ("after", "i8"),  # a bit for each task that comes in an earlier slot
     ],
     align=True,
 )
 
-# What a robot is told before the trial. Only the master is told of tasks.
+# What a robot is told before the trial. Only the master is told of tasks, unless others may follow it.
 CHART = np.dtype(
     [
         ("robots", "i8"),
@@ -134,6 +174,12 @@ CHART = np.dtype(
         ("gather_cycles", "i8"),
         ("attempts", "i8"),  # at a slot
         ("correction_limit", "i8"),  # cycles
+        ("task_count", "i8"),
+        ("tasks", CHARTED, TALLIED),
+        ("replans", "i8"),  # new plans at most
+        ("planning_range", "f8"),  # m of arm for each robot of it
+        ("paths", "i8"),  # robot-disjoint ones to a task
+        ("region", "f8", 4),  # m, where a master may stand: ahead and aside from, to
         ("cycle_time", "f8"),
     ],
     align=True,

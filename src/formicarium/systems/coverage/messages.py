@@ -4,6 +4,7 @@ from formicarium.compiled import compiled
 from formicarium.robots.footbot import ENTRIES
 
 HEAD_BYTES = 54  # eleven small numbers of one byte, sequence of three, five numbers of eight
+LEADER_BYTES = 54  # three numbers of one byte, the clock of three, five of eight and 63 bits with one for "placed"
 ARM_BYTES = 27  # three numbers of eight bytes, three of one: the task's goes with whether the direction is known
 ENTRY_BYTES = 9  # a receiver's number and a bearing
 
@@ -36,6 +37,9 @@ def speak(reading, memory, command, longest):
     message.aside = command.aside
     message.farthest = memory.farthest
     message.counted = memory.counted
+    message.term = memory.term
+    if memory.term > 0:
+        speak_of_leader(message, memory)
     message.arm_count = memory.arm_count
     for k in range(memory.arm_count):
         message.arms[k].task = memory.arms[k].task
@@ -46,6 +50,7 @@ def speak(reading, memory, command, longest):
         message.arms[k].count = memory.arms[k].count
         message.arms[k].reached = memory.arms[k].reached
     size = HEAD_BYTES + ARM_BYTES * memory.arm_count
+    size += LEADER_BYTES if memory.term > 0 else 0
     room = min(ENTRIES, (longest - size) // ENTRY_BYTES)
     count = reading.packet_count
     first = (memory.sequence * room) % count if count > room else 0
@@ -55,3 +60,18 @@ def speak(reading, memory, command, longest):
         message.entries[e].receiver = packet.sender
         message.entries[e].bearing = packet.bearing
     message.bytes = size + ENTRY_BYTES * message.entry_count
+
+
+@compiled
+def speak_of_leader(message, memory):
+    """Write what the robot knows of the master, of its own place in the map and of what is done."""
+    message.leader = memory.leader
+    message.office = memory.office
+    message.beat = memory.beat
+    message.home_ahead = memory.home_ahead
+    message.home_aside = memory.home_aside
+    message.placed = memory.placed
+    message.way_ahead = memory.way_ahead
+    message.way_aside = memory.way_aside
+    message.facing = memory.facing
+    message.credited = memory.credited

@@ -1,7 +1,7 @@
 """A mission as the master is told of it: slots in their order, planned before the trial (ST-48)."""
 
 from formicarium.robots.footbot import ARMS, TASKS
-from formicarium.systems.coverage.memory import SLOTS
+from formicarium.systems.coverage.memory import SLOTS, TALLIED
 from formicarium.tables import Table, number
 
 
@@ -13,6 +13,7 @@ class PlannedTask(Table):
     y: float = number(0.0, "m", "to the left of it")
     duration: float = number(20.0, "s", "for which a robot must stand at it", gt=0, le=1e5)
     robots: int = number(1, "1", "wanted in its arm, relays and those at the task", ge=1)
+    after: tuple[str, ...] = number((), "1", "names of tasks that come in an earlier slot, also of a new plan")
 
 
 class PlannedSlot(Table):
@@ -44,6 +45,18 @@ class MissionTable(Table):
         gt=0,
         le=10,
     )
+    paths: int = number(1, "1", "Omega: robot-disjoint paths that each arm of a new plan has room for [paper]", ge=1)
+    region: tuple[float, ...] = number(
+        (), "m", "of a new plan's points: ahead and aside from, ahead and aside to; none: round tasks and swarm"
+    )
+    replans: int = number(
+        0,
+        "1",
+        "new plans at most, of what is not done as far as the master knows, when a slot has ended so or a master has "
+        "followed another; 0: none [paper; choice ST-72]",
+        ge=0,
+        le=50,
+    )
     slots: tuple[PlannedSlot, ...] = number((), "1", "in the order in which they are done", max_length=SLOTS)
 
     @property
@@ -57,7 +70,7 @@ class MissionTable(Table):
         return sum(slot.duration for slot in self.slots)
 
 
-def check_mission(mission: MissionTable, programme: str, robots: int) -> None:
+def check_mission(mission: MissionTable, programme: str, robots: int, silence_cycles: int = 0) -> None:
     """Refuse a plan that cannot be flown.
 
     Raises:
@@ -69,6 +82,23 @@ def check_mission(mission: MissionTable, programme: str, robots: int) -> None:
         raise ValueError("tasks.programme = 'mission' without mission.slots: give a map (formicarium run --map FILE)")
     if len(mission.tasks) > TASKS:
         raise ValueError(f"mission.slots has {len(mission.tasks)} tasks: a mission has at most {TASKS}; make two of it")
+    if silence_cycles > 0 and programme != "mission":
+        raise ValueError(
+            f"behaviour.silence_cycles = {silence_cycles}, but tasks.programme = {programme!r}: a master can only be "
+            "followed in a mission; set silence_cycles to 0"
+        )
+    if len(mission.tasks) > TALLIED and (mission.replans > 0 or silence_cycles > 0):
+        raise ValueError(
+            f"mission.slots has {len(mission.tasks)} tasks, a swarm tells {TALLIED} apart that are done: make two "
+            "missions of it, or set mission.replans and behaviour.silence_cycles to 0"
+        )
+    if mission.region and len(mission.region) != 4:
+        raise ValueError(f"mission.region = {list(mission.region)}: must be four lengths, or none")
+    names = {task.name for task in mission.tasks}
+    for task in mission.tasks:
+        for earlier in task.after:
+            if earlier not in names:
+                raise ValueError(f"mission.slots: task {task.name!r} is after {earlier!r}, but there is no such task")
     for number_of, slot in enumerate(mission.slots, 1):
         if slot.robots > robots - 1:
             raise ValueError(

@@ -95,6 +95,19 @@ class BehaviourTable(Table):
         60, "cycles", "word of a reached task lives for so many hops or cycles [choice ST-43]", ge=1
     )
 
+    silence_cycles: int = number(
+        0,
+        "cycles",
+        "a master of a mission without a newer word for so long is given up, and the lowest number alive follows it; "
+        "0: nobody does [paper; choice ST-48: 5 s]",
+        ge=0,
+    )
+    patience_cycles: int = number(
+        600, "cycles", "a group of less than half of the swarm waits so long to meet others first [choice ST-48]", ge=1
+    )
+    placing_share: float = number(
+        0.02, "1", "of what a neighbour makes of a robot's place in the map, in each cycle [choice]", gt=0, le=1
+    )
     census_cycles: int = number(
         0,
         "cycles",
@@ -180,6 +193,33 @@ WORDS = {
 }
 
 
+class FailureTable(Table):
+    """Robots that fall silent for good in the midst of a trial (ST-71)."""
+
+    count: int = number(0, "1", "robots that fail [choice ST-71]", ge=0, le=PACKETS)
+    aim: Literal["random", "articulation", "master"] = number(
+        "random",
+        "1",
+        "random: any living robot but the master; articulation: one whose loss parts the range graph, as soon as there "
+        "is one; master: whoever leads [ST-71]",
+    )
+    remains: Literal["obstacle", "removed"] = number(
+        "obstacle", "1", "obstacle: the body stays where it is; removed: it is taken away [ST-71]"
+    )
+    earliest: float = number(30.0, "s", "each fails at a random time from here [choice ST-71]", ge=0, le=1e6)
+    latest: float = number(300.0, "s", "to here [choice ST-71]", ge=0, le=1e6)
+
+    @model_validator(mode="after")
+    def times_fit(self) -> "FailureTable":
+        """Refuse a time that ends before it begins."""
+        if self.latest < self.earliest:
+            raise ValueError(
+                f"failures.latest = {self.latest:g} s is before failures.earliest = {self.earliest:g} s: make latest "
+                "larger"
+            )
+        return self
+
+
 class ObserverTable(Table):
     """What the observers look at, and how often."""
 
@@ -200,6 +240,7 @@ class CoverageParameters(BaseModel):
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
+    failures: FailureTable = Field(default_factory=FailureTable)
 
     @model_validator(mode="after")
     def lengths_fit(self) -> "CoverageParameters":
@@ -214,7 +255,17 @@ class CoverageParameters(BaseModel):
     @model_validator(mode="after")
     def mission_fits(self) -> "CoverageParameters":
         """Refuse a plan that cannot be flown."""
-        check_mission(self.mission, self.tasks.programme, self.swarm.robots)
+        check_mission(self.mission, self.tasks.programme, self.swarm.robots, self.behaviour.silence_cycles)
+        return self
+
+    @model_validator(mode="after")
+    def failures_fit(self) -> "CoverageParameters":
+        """Refuse more failures than there are robots."""
+        if self.failures.count >= self.swarm.robots:
+            raise ValueError(
+                f"failures.count = {self.failures.count} of swarm.robots = {self.swarm.robots}: at least one must be "
+                "left. Make count smaller"
+            )
         return self
 
 

@@ -13,6 +13,7 @@ from formicarium.robots.footbot import CHASSIS, COMMAND, IDENTITIES, READING
 from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
 from formicarium.systems.coverage.credit import TASK_SEEN
+from formicarium.systems.coverage.failures import make_failures
 from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
@@ -42,6 +43,7 @@ class CoverageState(NamedTuple):
     commands: np.recarray  # COMMAND (N,)
     charts: np.recarray  # CHART (N,); only the master's tells of tasks
     beacons: np.recarray  # BEACON (T,)
+    failures: np.recarray  # FAILURE (k,), still to come and past
     sight: np.ndarray  # (N, N): 1 if within range and no body between
     heard: np.ndarray  # (N, N): cycle at which i last heard j
     links: np.ndarray  # (N, N - 1): in which graphs body i and its n-th neighbour are linked, the observers'
@@ -86,16 +88,18 @@ def begin(
     )
     clock = records(CLOCK, 1)
     clock[0].last_cycle = round(p.swarm.time_cap / p.swarm.cycle_time)
+    charts = make_charts(crew.robots, p, arena)
     state = CoverageState(
         clock=clock,
         world=world,
         robots=crew.robots,
         chassis=make_chassis(crew.robots, p, seed),
         readings=records(READING, count),
-        memories=make_memories(crew.robots, seed),
+        memories=make_memories(crew.robots, charts, p, seed),
         commands=records(COMMAND, count),
-        charts=make_charts(crew.robots, p, arena),
+        charts=charts,
         beacons=arena.beacons.copy(),
+        failures=make_failures(p, seed),
         sight=np.zeros((count, count), np.int64),
         heard=np.full((count, count), NEVER, np.int64),
         links=np.zeros((count, max(1, count - 1)), np.int64),
@@ -153,26 +157,34 @@ def make_chassis(robots: np.recarray, p: CoverageParameters, seed: int) -> np.re
     return chassis
 
 
-def make_memories(robots: np.recarray, seed: int) -> np.recarray:
-    """Return the memories of newly switched-on robots; the first is the master."""
+def make_memories(robots: np.recarray, charts: np.recarray, p: CoverageParameters, seed: int) -> np.recarray:
+    """Return the memories of newly switched-on robots; the first is the master, with the plan of its chart in hand."""
     memories = records(MEMORY, len(robots))
-    for memory, robot in zip(memories, robots, strict=True):
+    for memory, robot, chart in zip(memories, robots, charts, strict=True):
         memory.draws = stream(seed, "decisions", int(robot.key))
         memory.master = robot.key == 0
         memory.gradient = math.inf
         for name in ("parent_heard", "linked_at", "reference_heard", "corrected", "all_heard"):
             memory[name] = NEVER
         memory.reference_place = -1
+        memory.slots, memory.slot_count = chart.slots, chart.slot_count
+        if p.behaviour.silence_cycles > 0:
+            memory.term = memory.office = 1
+            memory.leader = robot.identity if memory.master else 0
+            memory.placed = memory.master
     return memories
 
 
 def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.recarray:
-    """Return what robots are told: all how many they are, the master of tasks and programme besides."""
+    """Return what robots are told: all how many they are, the master of tasks and programme besides.
+
+    Where another may follow the master, all are told the same.
+    """
     charts = records(CHART, len(robots))
     t, cycle_time = p.tasks, p.swarm.cycle_time
     charts.robots, charts.stop, charts.cycle_time = p.swarm.robots, int(t.stop), cycle_time
     for chart, robot in zip(charts, robots, strict=True):
-        if robot.key != 0:
+        if robot.key != 0 and p.behaviour.silence_cycles == 0:
             continue
         chart.programme = PROGRAMMES.index(t.programme)
         chart.slot_count = len(arena.sites)
@@ -182,7 +194,23 @@ def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.
         chart.erupt_cycles = round(t.erupt_limit / cycle_time)
         chart.gather_cycles = round(t.gather_limit / cycle_time)
         chart.correction_limit = round(p.behaviour.correction_limit / cycle_time)
+        if p.behaviour.silence_cycles > 0 or p.mission.replans > 0:
+            write_tasks(chart, p)
     return charts
+
+
+def write_tasks(chart: np.record, p: CoverageParameters) -> None:
+    """Write what a robot needs to know of the map to see what is left of it, and to plan it anew."""
+    m = p.mission
+    chart.replans, chart.planning_range, chart.paths = m.replans, m.planning_range, m.paths
+    xs, ys = ([getattr(place, axis) for place in (*m.tasks, *m.slots)] for axis in ("x", "y"))
+    chart.region[:] = m.region or (min(0.0, *xs), min(0.0, *ys), max(0.0, *xs), max(0.0, *ys))
+    names = [task.name for task in m.tasks]
+    chart.task_count = len(names)
+    for charted, task in zip(chart.tasks, m.tasks, strict=False):
+        charted.ahead, charted.aside = task.x, task.y
+        charted.cycles = max(1, round(task.duration / p.swarm.cycle_time))
+        charted.after = sum(1 << names.index(earlier) for earlier in set(task.after))
 
 
 def write_slot(slot: np.record, p: CoverageParameters, arena: Arena, number: int) -> None:

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 
 from formicarium.observers.graphs import Graph
-from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role
 from formicarium.systems.coverage.parameters import CoverageParameters, coverage_parameters
+from formicarium.systems.coverage.replanning import advance
 from formicarium.systems.coverage.setup import begin
 from formicarium.systems.coverage.watching import (
     frame_roles,
@@ -46,7 +46,7 @@ def run_trial(
     every = 1 if frames_every is None else max(1, round(frames_every / parameters.swarm.cycle_time))
     film = make_film(int(state.clock[0].last_cycle) // every + 2 if frames_every else 0, len(state.robots), scene)
     take = None if frames_every is None else lambda state: shoot(state, film)
-    events = simulate(run, state, every=every, take=take, watch=watch)
+    events = simulate(advance, state, every=every, take=take, watch=watch)
     frames: Frames | None = frames_of(film, np.asarray(state.robots.identity)) if frames_every is not None else None
     return Trial(outcome_row(parameters, state, events), events, frames, scene)
 
@@ -95,7 +95,7 @@ COVERAGE = System(
     ),
     timeline=timeline,
     begin=begin,
-    advance=run,
+    advance=advance,
     roles=frame_roles,
     watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row, blockable=False),
 )

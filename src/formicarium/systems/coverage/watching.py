@@ -13,7 +13,8 @@ from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role, outcome, role_of
 from formicarium.systems.coverage.memory import NEVER, Mode, Stage
 from formicarium.systems.coverage.parameters import CoverageParameters
-from formicarium.trial.film import NOWHERE, shoot_robots
+from formicarium.systems.coverage.replanning import answer
+from formicarium.trial.film import NOWHERE, Film, shoot_robots
 from formicarium.trial.record import FLOOR, Polygon, Scene
 from formicarium.trial.showing import colour, degrees, fields, metres, side_by_side
 from formicarium.trial.situated import look
@@ -71,12 +72,23 @@ def shoot(state, film):
         film.lit[moment, k] = state.tasks[k].covered
 
 
-@compiled
-def roll(state, cycles, every, film):
+def roll(state: Any, cycles: int, every: int, film: Film) -> None:
     """Advance by so many cycles and take a moment every so many, until the film is full or the trial finished."""
     clock = state.clock[0]
+    end = int(clock.cycle) + cycles
+    roll_on(state, cycles, every, film)
+    while state.survey[0].asked == 1 and clock.cycle < end:
+        answer(state)
+        roll_on(state, end - int(clock.cycle), every, film)
+
+
+@compiled
+def roll_on(state, cycles, every, film):
+    """Do so until a master waits for a new plan."""
+    clock = state.clock[0]
+    survey = state.survey[0]
     end = clock.cycle + cycles
-    while clock.cycle < end and clock.finished == 0 and film.taken[0] < len(film.cycle):
+    while clock.cycle < end and clock.finished == 0 and survey.asked == 0 and film.taken[0] < len(film.cycle):
         run(state, min(end - clock.cycle, every - clock.cycle % every))
         if clock.cycle % every == 0:
             shoot(state, film)
@@ -107,7 +119,7 @@ def inspect(state: Any, identity: int) -> Inspection:
         identity,
         f"{ROLES[role_of(state.robots[i], state.memories[i])]}, {Mode(int(memory['mode'])).name.lower()}",
         (
-            Section("Memory", ("field", "value"), tuple(fields(memory, words, ("arms", "links")))),
+            Section("Memory", ("field", "value"), tuple(fields(memory, words, ("arms", "links", "slots", "worked")))),
             side_by_side("Arms", arms_of(memory), words),
             side_by_side("Links kept", {str(link["who"]): link for link in links}, words),
             side_by_side("Messages heard", {head: head_of(packet) for head, packet in heard.items()}, words),
@@ -192,6 +204,12 @@ def tell(event: Any) -> str:
             return f"the task of arm {subject} is left after {value} cycles"
         case EventKind.WORKED:
             return f"task {subject} is done after {value} cycles of work"
+        case EventKind.FOLLOWED:
+            return f"robot {robot} takes the master's part, the {value}. to have it"
+        case EventKind.PLANNED:
+            return f"the master plans what is left anew, in {subject} slot{'s' * (subject > 1)}"
+        case EventKind.AIMED:
+            return f"arm {subject} is for task {value} now"
         case EventKind.DIED:
             return f"robot {robot} dies"
         case _:
