@@ -127,6 +127,9 @@ SAID = [
     ("aside", "f8"),
     ("farthest", "f8"),  # m, greatest gradient among the speaker and those behind it
     ("counted", "i8"),  # how many those are
+    ("branch", "i8"),  # of arms that branch: which of its arm, 0: the stem
+    ("place", "i8"),  # counted along the branch from 1; 0: none
+    ("followers", "i8"),  # the speaker and all that align with it, directly or not
     ("arm_count", "i8"),  # arms spoken of
     ("arms", ARM, ARMS),
 ]

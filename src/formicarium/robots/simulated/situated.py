@@ -101,6 +101,9 @@ def hear(packet, message, entry):
     packet.aside = message.aside
     packet.farthest = message.farthest
     packet.counted = message.counted
+    packet.branch = message.branch
+    packet.place = message.place
+    packet.followers = message.followers
     packet.arm_count = message.arm_count
     for k in range(message.arm_count):
         packet.arms[k].task = message.arms[k].task

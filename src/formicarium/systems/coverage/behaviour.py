@@ -3,6 +3,7 @@
 from formicarium.compiled import compiled
 from formicarium.control.turning import drive_towards
 from formicarium.systems.coverage.arms import choose_arm
+from formicarium.systems.coverage.branching import BRANCH_BYTES, find_place, grow, say_place, turn_off
 from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
 from formicarium.systems.coverage.flocking import flock
 from formicarium.systems.coverage.forces import clear, press
@@ -16,7 +17,7 @@ from formicarium.systems.coverage.listening import (
     stay_master,
 )
 from formicarium.systems.coverage.master import lead
-from formicarium.systems.coverage.memory import Mode, Stage
+from formicarium.systems.coverage.memory import Mode, Shape, Stage
 from formicarium.systems.coverage.messages import speak
 
 SAFE = 2  # place of "safe" among the variants
@@ -41,7 +42,10 @@ def decide(reading, memory, command, table, chart, footbot):
     elif memory.mode == Mode.FLOCK:
         keep_up(reading, memory, command, table, footbot)
     elif memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
-        erupt(reading, memory, command, table, chart, footbot)
+        if chart.formation.shape == Shape.STAR:
+            erupt(reading, memory, command, table, chart, footbot)
+        else:
+            grow(reading, memory, command, table, chart.formation, footbot)
     elif memory.mode == Mode.GATHER:
         gather(reading, memory, command, table, footbot)
     else:
@@ -49,7 +53,11 @@ def decide(reading, memory, command, table, chart, footbot):
         clear(command)
     drive(reading, memory, command, table, chart, footbot)
     command.colour = memory.arm
-    speak(reading, memory, command, footbot.message_bytes)
+    if chart.formation.shape == Shape.STAR:
+        speak(reading, memory, command, footbot.message_bytes)
+    else:
+        speak(reading, memory, command, footbot.message_bytes - BRANCH_BYTES)
+        say_place(memory, command)
 
 
 @compiled
@@ -62,8 +70,13 @@ def listen(reading, memory, table, chart):
     else:
         find_way(reading, memory, table, chart)
         choose_arm(reading, memory, table)
-        find_reference(reading, memory)
-        take_directions(reading, memory, table)
+        if chart.formation.shape == Shape.STAR:
+            find_reference(reading, memory)
+            take_directions(reading, memory, table)
+        else:
+            find_place(reading, memory, table, chart.formation)
+            take_directions(reading, memory, table)
+            turn_off(memory, chart.formation)
     count_behind(reading, memory)
     hear_reached(reading, memory, table)
 

@@ -21,6 +21,13 @@ class Mode(IntEnum):
     GATHER = 4
 
 
+class Shape(IntEnum):
+    """Into what arms grow."""
+
+    STAR = 0
+    FRACTAL = 1
+
+
 class Stage(IntEnum):
     """What a robot is at."""
 
@@ -78,6 +85,12 @@ MEMORY = np.dtype(
         ("offset", "f8"),  # rad, phi: how far off the arm's line, as the reference sees it
         ("aligned", "i8"),
         ("flips", "i8"),  # how often that has changed
+        # where it is in an arm that branches
+        ("branch", "i8"),
+        ("place", "i8"),
+        ("placed", "i8"),  # cycle since which it has that place
+        ("followers", "i8"),  # itself and all that align with it, directly or not
+        ("doubted", "i8"),  # cycles for which it has seemed to be nearer to the root
         ("spiral", "f8"),  # rad, how the present spiral opens
         ("turning", "i8"),  # Turning of the wheels
         # where it is by its own odometry, from where it started
@@ -122,6 +135,21 @@ SLOT = np.dtype(
     align=True,
 )
 
+# Into what arms grow.
+FORMATION = np.dtype(
+    [
+        ("shape", "i8"),  # Shape
+        ("branch_robots", "i8"),  # of a branch; the last is the root of the next
+        ("branches", "i8"),  # that one root has
+        ("angle", "f8"),  # rad, between the outermost of them and their stem
+        ("ratio", "f8"),  # of delta, a branch to the one before it
+        ("depth", "i8"),  # branchings between the master and the last tips
+        ("queue_share", "f8"),  # of delta, between robots to spare
+        ("patience", "i8"),  # cycles for which a robot is to spare before it goes
+    ],
+    align=True,
+)
+
 # What a robot is told before the trial. Only the master is told of tasks.
 CHART = np.dtype(
     [
@@ -135,6 +163,7 @@ CHART = np.dtype(
         ("attempts", "i8"),  # at a slot
         ("correction_limit", "i8"),  # cycles
         ("cycle_time", "f8"),
+        ("formation", FORMATION),
     ],
     align=True,
 )

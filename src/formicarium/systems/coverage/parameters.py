@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from formicarium.robots.footbot import ARMS, LABORATORY_2018, NOTEBOOK_2018, PACKETS, Footbot
+from formicarium.systems.coverage.formation import FormationTable
 from formicarium.systems.coverage.mission import MissionTable, check_mission
 from formicarium.tables import Table, number
 
@@ -198,6 +199,7 @@ class CoverageParameters(BaseModel):
     tasks: TaskTable = Field(default_factory=TaskTable)
     mission: MissionTable = Field(default_factory=MissionTable)
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
+    formation: FormationTable = Field(default_factory=FormationTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
 
@@ -255,7 +257,13 @@ LABORATORY: Groups = {
     "tasks": {"distance": 3.0 * math.sqrt(2.0)},
     "footbot": LABORATORY_2018,
 }
-SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY)
+FRACTAL: Groups = {
+    "swarm": {"robots": 43, "time_cap": 600.0},
+    "tasks": {"stop": False, "count": 3},
+    "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
+    "formation": {"shape": "fractal"},
+}
+SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY, FRACTAL)
 
 
 def coverage_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> CoverageParameters:
@@ -263,7 +271,7 @@ def coverage_parameters(setting: int | None = None, robots: int | None = None, *
 
     Args:
         setting: 0 a tour of all phases; 1 and 2 Table I with delta 1.2 and 2.4 m; 3 and 4 Fig. 4a and 4b; 5 Fig. 5;
-            6 the idealised scenario; 7 the laboratory's stand-in. None means 0.
+            6 the idealised scenario; 7 the laboratory's stand-in; 8 a fractal of 43 robots. None means 0.
         robots: master and backbone together; None means the setting's own.
         groups: fields to change, by group: ``behaviour={"variant": "safe"}``.
 

@@ -9,6 +9,7 @@ from formicarium.compiled import compiled
 from formicarium.control.turning import Turning
 from formicarium.observers.graphs import Graph
 from formicarium.systems.coverage.arena import HALF_SIDE, circle
+from formicarium.systems.coverage.fractals import fractal_columns
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role, outcome, role_of
 from formicarium.systems.coverage.memory import NEVER, Mode, Stage
@@ -84,12 +85,13 @@ def roll(state, cycles, every, film):
 
 def outcome_row(parameters: CoverageParameters, state: Any, events: np.ndarray) -> Mapping[str, Any]:
     """Return the row of a finished trial with the numbers that say which trial it was."""
+    shaped = fractal_columns(parameters, state) if parameters.formation.shape == "fractal" else {}
     return {
         "robots": parameters.swarm.robots,
         "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
         "spacing_m": parameters.behaviour.spacing,
         "variant": parameters.behaviour.variant,
-    } | outcome(state, events)
+    } | outcome(state, events) | shaped
 
 
 def inspect(state: Any, identity: int) -> Inspection:
