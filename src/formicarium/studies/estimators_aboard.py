@@ -58,7 +58,7 @@ def sail(parameters: CoverageParameters, seed: int, every: int) -> Voyage:
     received = np.zeros((cycles, size, size), bool)
     sight = []
     for cycle in range(cycles):
-        if cycle % every == 0:
+        if cycle % every == 1 % every:  # in the first cycle nobody has spoken yet
             sight.append(state.sight.astype(bool))
         run(state, 1)
         state.clock[0].event_count = 0
@@ -96,11 +96,15 @@ def median_node(values: np.ndarray) -> np.ndarray:
     return said
 
 
-def frozen_seconds(graph: np.ndarray, method: str, seed: int, cycle_time: float) -> float | None:
-    """Return after how long an estimator stays within 10 % if the graph stood still and no message was lost (s)."""
+def frozen(graph: np.ndarray, method: str, seed: int, cycle_time: float) -> tuple[float | None, float]:
+    """Return after how long an estimator stays within 10 % if the graph stood still and no message was lost (s).
+
+    And the error of the median node at the end.
+    """
     found = estimate(graph, ESTIMATORS[method], seed=seed, iterations=FROZEN_ITERATIONS[method], every=10)
-    stays = reached(found.iterations, relative_error(found.values, truth_of(graph, method)), TEN_PERCENT).stays
-    return None if stays is None else stays * cycle_time
+    errors = relative_error(found.values, truth_of(graph, method))
+    stays = reached(found.iterations, errors, TEN_PERCENT).stays
+    return None if stays is None else stays * cycle_time, float(errors[-1])
 
 
 def truth_of(graph: np.ndarray, method: str) -> float:
@@ -150,10 +154,12 @@ def fly(
     }
     for method, which in ESTIMATORS.items():
         truth = np.array([truth_of(graph, method) for graph in voyage.sight])
-        said = estimate_aboard(voyage.received, which, seed=seed, every=every)
+        said = estimate_aboard(voyage.received[1:], which, seed=seed, every=every)
         name = method.lower()
         row |= {f"{name}_{key}": value for key, value in judge(said, truth, step).items()}
-        row[f"{name}_frozen_s"] = frozen_seconds(voyage.sight[-1], method, seed, swarm.swarm.cycle_time)
+        row[f"{name}_frozen_s"], row[f"{name}_frozen_error"] = frozen(
+            voyage.sight[-1], method, seed, swarm.swarm.cycle_time
+        )
         row[f"{name}_said"] = as_text(median_node(said.values))
         row[f"{name}_truth"] = as_text(truth)
     return Trial(row, np.zeros(0, EVENT), None, Scene((), 0.0, (), swarm.swarm.cycle_time))
@@ -161,8 +167,7 @@ def fly(
 
 def delivered_share(voyage: Voyage, every: int) -> float:
     """Return which share of the messages between robots in sight of each other came through."""
-    possible = voyage.sight[1:]  # in the first cycle nobody had spoken
-    return float(voyage.received[every::every][: len(possible)][possible].mean())
+    return float(voyage.received[1::every][voyage.sight].mean())
 
 
 ABOARD = System(

@@ -113,5 +113,9 @@ def hear(packet, message, entry):
         packet.arms[k].leave = message.arms[k].leave
         packet.arms[k].count = message.arms[k].count
         packet.arms[k].reached = message.arms[k].reached
+        packet.arms[k].open = message.arms[k].open
+        packet.arms[k].way = message.arms[k].way
+        packet.arms[k].next = message.arms[k].next
+        packet.arms[k].load = message.arms[k].load
     packet.named = 1 if entry >= 0 else 0
     packet.bearing_of_me = message.entries[entry].bearing if entry >= 0 else 0.0

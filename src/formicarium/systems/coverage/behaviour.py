@@ -3,7 +3,7 @@
 from formicarium.compiled import compiled
 from formicarium.control.turning import drive_towards
 from formicarium.systems.coverage.arms import choose_arm
-from formicarium.systems.coverage.branching import BRANCH_BYTES, find_place, grow, say_place, turn_off
+from formicarium.systems.coverage.branching import bytes_more, grow, say_place, take_part, turn_off
 from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
 from formicarium.systems.coverage.flocking import flock
 from formicarium.systems.coverage.forces import clear, press
@@ -53,11 +53,9 @@ def decide(reading, memory, command, table, chart, footbot):
         clear(command)
     drive(reading, memory, command, table, chart, footbot)
     command.colour = memory.arm
-    if chart.formation.shape == Shape.STAR:
-        speak(reading, memory, command, footbot.message_bytes)
-    else:
-        speak(reading, memory, command, footbot.message_bytes - BRANCH_BYTES)
-        say_place(memory, command)
+    speak(reading, memory, command, footbot.message_bytes - bytes_more(memory, chart.formation))
+    if chart.formation.shape != Shape.STAR:
+        say_place(memory, command, chart.formation)
 
 
 @compiled
@@ -74,7 +72,7 @@ def listen(reading, memory, table, chart):
             find_reference(reading, memory)
             take_directions(reading, memory, table)
         else:
-            find_place(reading, memory, table, chart.formation)
+            take_part(reading, memory, table, chart)
             take_directions(reading, memory, table)
             turn_off(memory, chart.formation)
     count_behind(reading, memory)

@@ -1,119 +1,79 @@
 """Arms that branch: a tip with robots to spare becomes the root of smaller arms, and theirs do so again (ST-75).
 
-A branch has a number in octal: 0 is the stem, the arm from the master; each digit says which child of the branch
-before it is meant. Places count along a branch from 1; robot ``branch_robots`` is the root of the children, as the
-master is of the stems. Whoever stands beyond it is to spare, queues up close behind, and goes over to a child.
+Robots to spare queue up close behind the tip and go over to a child one by one. In a network the children are tubes
+to the neighbouring arms (``tubes.py``).
 """
 
 import math
 
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
+from formicarium.systems.coverage.branches import (
+    DIGIT,
+    descends,
+    enter,
+    is_mate,
+    is_root,
+    is_to_spare,
+    level_of,
+    remoteness,
+    swing_of,
+    swing_to,
+)
 from formicarium.systems.coverage.eruption import be_lost, note_alignment, spiral
 from formicarium.systems.coverage.forces import clear, cut, push_from
 from formicarium.systems.coverage.listening import round_of
-from formicarium.systems.coverage.memory import Stage
+from formicarium.systems.coverage.memory import Shape, Stage
+from formicarium.systems.coverage.tubes import TUBE_BYTES, find_tips, flow, is_far_end, say_flow, thinnest_tube
 
-DIGIT = 8
-MOST_FOLLOWERS = 255
 BRANCH_BYTES = 4  # two for the branch, one for the place, one for the followers
+MOST_FOLLOWERS = 255
 
 
 @compiled
-def level_of(branch):
-    """Return how many branchings a branch is away from its stem."""
-    level = 0
-    while branch > 0:
-        branch //= DIGIT
-        level += 1
-    return level
-
-
-@compiled
-def descends(branch, ancestor):
-    """Tell whether a branch is another one, or grows from it."""
-    while branch > ancestor:
-        branch //= DIGIT
-    return branch == ancestor
-
-
-@compiled
-def swing_of(branch, formation):
-    """Return the angle from an arm's stem to one of its branches (rad): children fan out over twice ``angle``."""
-    swing = 0.0
-    while branch > 0:
-        if formation.branches > 1:
-            swing += formation.angle * (2.0 * (branch % DIGIT - 1) / (formation.branches - 1) - 1.0)
-        branch //= DIGIT
-    return swing
-
-
-@compiled
-def spacing_of(memory, formation):
-    """Return the delta of a robot's branch (m): ratio^level of the phase's."""
-    return memory.spacing * formation.ratio ** level_of(memory.branch)
-
-
-@compiled
-def is_to_spare(branch, place, formation):
-    """Tell whether a place lies beyond the root of a branch's children."""
-    return place > formation.branch_robots and level_of(branch) < formation.depth
-
-
-@compiled
-def is_root(packet, memory, formation):
-    """Tell whether a speaker is where one's own branch begins."""
-    if memory.branch == 0:
-        return packet.linked == 1 and packet.hops == 0
-    parent = memory.branch // DIGIT
-    return packet.arm == memory.arm and packet.branch == parent and packet.place == formation.branch_robots
-
-
-@compiled
-def is_mate(packet, memory):
-    """Tell whether a speaker is of one's own branch."""
-    return packet.linked == 1 and packet.arm == memory.arm and packet.branch == memory.branch
-
-
-@compiled
-def find_place(reading, memory, table, formation):
-    """Choose the robot to align with, count one's place, and go over to a child when it is one's turn.
-
-    As in a star: the root if it is heard; else, of the branch's robots that are nearer to the master, the one that is
-    least so.
-    """
-    best = -1
-    rooted = False
-    place = 0
-    for k in range(reading.packet_count):
-        packet = reading.packets[k]
-        if round_of(packet.epoch) != round_of(memory.epoch):
-            continue
-        root = is_root(packet, memory, formation)
-        before = is_mate(packet, memory) and packet.gradient < memory.gradient
-        if root:
-            place = max(place, 1)
-        elif before and packet.place > 0:
-            place = max(place, packet.place + 1)
-        if rooted or packet.named == 0 or packet.arm_count == 0 or packet.arms[0].known == 0:
-            continue
-        if root or (before and (best < 0 or packet.gradient > reading.packets[best].gradient)):
-            best = k
-            rooted = root
-    memory.reference_place = best if memory.linked == 1 else -1
+def take_part(reading, memory, table, chart):
+    """Find one's place in an arm that branches, and whom to align with."""
+    formation = chart.formation
+    if formation.shape == Shape.NETWORK:
+        find_tips(reading, memory, table, chart)
+    find_place(reading, memory, table, formation)
     count_followers(reading, memory)
-    note_place(memory, place, reading.cycle, table)
+    if formation.shape == Shape.NETWORK:
+        flow(reading, memory, formation)
     if memory.aligned == 1 and reading.cycle - memory.placed >= formation.patience:
         go_over(reading, memory, formation)
 
 
 @compiled
-def count_followers(reading, memory):
-    """Sum up who aligns with this robot, directly or not, itself too."""
-    memory.followers = 1
+def find_place(reading, memory, table, formation):
+    """Choose the robot to align with, and count one's place.
+
+    As in a star: the root if it is heard; else, of those that come before in the branch, the one that is nearest.
+    """
+    best = -1
+    farthest = -1.0
+    rooted = False
+    place = 0
+    own = remoteness(memory, memory.arm, memory.branch, formation) if memory.arm > 0 else math.inf
     for k in range(reading.packet_count):
-        if reading.packets[k].reference == reading.identity:
-            memory.followers = min(MOST_FOLLOWERS, memory.followers + reading.packets[k].followers)
+        packet = reading.packets[k]
+        if memory.arm == 0 or packet.arm_count == 0 or round_of(packet.epoch) != round_of(memory.epoch):
+            continue
+        root = is_root(packet, memory, formation)
+        far = remoteness(packet, memory.arm, memory.branch, formation)
+        before = is_mate(packet, memory) and far < own
+        if root:
+            place = max(place, 1)
+        elif before and packet.place > 0:
+            place = max(place, packet.place + 1)
+        if rooted or packet.named == 0 or packet.arms[0].known == 0:
+            continue
+        if root or (before and far > farthest):
+            best = k
+            farthest = far
+            rooted = root
+    memory.reference_place = best if memory.linked == 1 else -1
+    note_place(memory, place, reading.cycle, table)
 
 
 @compiled
@@ -132,8 +92,17 @@ def note_place(memory, place, cycle, table):
 
 
 @compiled
+def count_followers(reading, memory):
+    """Sum up who aligns with this robot, directly or not, itself too."""
+    memory.followers = 1
+    for k in range(reading.packet_count):
+        if reading.packets[k].reference == reading.identity:
+            memory.followers = min(MOST_FOLLOWERS, memory.followers + reading.packets[k].followers)
+
+
+@compiled
 def go_over(reading, memory, formation):
-    """First in the queue behind the root of children, go over to the child with the fewest robots."""
+    """First in the queue behind the root of children, go over to one of them."""
     if memory.place != formation.branch_robots + 1 or not is_to_spare(memory.branch, memory.place, formation):
         return
     root = 0
@@ -143,36 +112,49 @@ def go_over(reading, memory, formation):
             root = packet.sender
     if root == 0:
         return
+    if formation.shape == Shape.NETWORK:
+        child = thinnest_tube(reading, memory, formation, root)
+    else:
+        child = fewest(reading, memory, formation, root)
+    if child > 0:
+        enter(memory, memory.branch * DIGIT + child, reading.cycle)
+
+
+@compiled
+def fewest(reading, memory, formation, root):
+    """Return the child with the fewest robots."""
     least = -1
     chosen = 0
     for child in range(1, formation.branches + 1):
-        branch = memory.branch * DIGIT + child
         count = 0
         for k in range(reading.packet_count):
             packet = reading.packets[k]
-            if packet.arm == memory.arm and packet.reference == root and descends(packet.branch, branch):
+            grown = packet.arm == memory.arm and descends(packet.branch, memory.branch * DIGIT + child)
+            if grown and packet.reference == root:
                 count += packet.followers
         if least < 0 or count < least:
             least = count
-            chosen = branch
-    memory.branch = chosen
-    memory.place = 0
-    memory.placed = reading.cycle
-    memory.aligned = 0
-    memory.reference_place = -1
+            chosen = child
+    return chosen
 
 
 @compiled
 def turn_off(memory, formation):
     """Reckon how far one is off the branch's line, not off the stem's."""
-    if memory.reference_place >= 0:
+    if memory.reference_place < 0 or memory.branch == 0:
+        return
+    if formation.shape == Shape.NETWORK:
+        memory.offset = wrapped(memory.offset - swing_to(memory, memory.arm, memory.branch))
+    else:
         memory.offset = wrapped(memory.offset - swing_of(memory.branch, formation))
 
 
 @compiled
 def grow(reading, memory, command, table, formation, footbot):
-    """Do what an eruption with branches asks of a backbone robot."""
-    spacing = spacing_of(memory, formation)
+    """Do what an eruption with branches asks of a backbone robot; delta shrinks with each branching."""
+    spacing = memory.spacing
+    if formation.shape == Shape.FRACTAL:
+        spacing *= formation.ratio ** level_of(memory.branch)
     if memory.reference_place >= 0 and memory.arm > 0:
         note_alignment(memory, table)
         if memory.aligned == 1:
@@ -190,7 +172,7 @@ def grow(reading, memory, command, table, formation, footbot):
 
 @compiled
 def press_branch(reading, memory, command, table, formation, spacing, limit):
-    """Follow the potential of one's branch and its root.
+    """Follow the potential of one's branch, its root, and a tube's far end.
 
     Those to spare queue up: each heeds who stands before it alone, and no one else heeds them. If those behind pulled,
     a queue would gather at its end.
@@ -206,13 +188,25 @@ def press_branch(reading, memory, command, table, formation, spacing, limit):
             before = packet.gradient < memory.gradient
             if before if spare else not is_to_spare(packet.branch, packet.place, formation):
                 push_from(command, packet, wanted, table)
+        elif formation.shape == Shape.NETWORK and is_far_end(packet, memory, formation):
+            push_from(command, packet, wanted, table)
     cut(command, table, limit)
 
 
 @compiled
-def say_place(memory, command):
-    """Add to the message where one is in one's arm, four bytes more."""
+def bytes_more(memory, formation):
+    """Return how many bytes a message is longer than a star's."""
+    if formation.shape == Shape.STAR:
+        return 0
+    return BRANCH_BYTES + (TUBE_BYTES * memory.arm_count if formation.shape == Shape.NETWORK else 0)
+
+
+@compiled
+def say_place(memory, command, formation):
+    """Add to the message where one is in one's arm, and in a network what flows through one."""
     command.message.branch = memory.branch
     command.message.place = memory.place
     command.message.followers = memory.followers
-    command.message.bytes += BRANCH_BYTES
+    if formation.shape == Shape.NETWORK:
+        say_flow(memory, command)
+    command.message.bytes += bytes_more(memory, formation)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from formicarium.angles import wrapped
-from formicarium.systems.coverage.branching import DIGIT, level_of, swing_of
+from formicarium.systems.coverage.branches import DIGIT, level_of, swing_of
 from formicarium.systems.coverage.parameters import CoverageParameters
 
 SAMPLE = 0.02  # m, between points that stand for a link

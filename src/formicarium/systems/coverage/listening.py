@@ -35,6 +35,8 @@ def forget_arms(memory):
         arm.leave = 0.0
         arm.count = 0
         arm.reached = 0
+        arm.open = 0
+        arm.next = 0
 
 
 @compiled

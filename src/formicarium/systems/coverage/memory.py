@@ -26,6 +26,7 @@ class Shape(IntEnum):
 
     STAR = 0
     FRACTAL = 1
+    NETWORK = 2
 
 
 class Stage(IntEnum):
@@ -90,6 +91,8 @@ MEMORY = np.dtype(
         ("place", "i8"),
         ("placed", "i8"),  # cycle since which it has that place
         ("followers", "i8"),  # itself and all that align with it, directly or not
+        ("conductance", "f8"),  # C of its tube
+        ("withered", "i8"),  # how often it has left one
         ("doubted", "i8"),  # cycles for which it has seemed to be nearer to the root
         ("spiral", "f8"),  # rad, how the present spiral opens
         ("turning", "i8"),  # Turning of the wheels
@@ -146,6 +149,9 @@ FORMATION = np.dtype(
         ("depth", "i8"),  # branchings between the master and the last tips
         ("queue_share", "f8"),  # of delta, between robots to spare
         ("patience", "i8"),  # cycles for which a robot is to spare before it goes
+        ("flux_power", "f8"),  # m of the conductance rule
+        ("tube_cycles", "f8"),  # its unit of time
+        ("thinnest", "f8"),  # conductance at which a tube withers
     ],
     align=True,
 )

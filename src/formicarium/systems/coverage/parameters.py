@@ -214,6 +214,16 @@ class CoverageParameters(BaseModel):
         return self
 
     @model_validator(mode="after")
+    def tubes_fit(self) -> "CoverageParameters":
+        """Refuse a network of arms that have no two neighbours."""
+        if self.formation.shape == "network" and self.tasks.count < 3:
+            raise ValueError(
+                f"tasks.count = {self.tasks.count}: in a network (formation.shape) every arm has one neighbour on each "
+                "side. Make tasks.count 3 or more"
+            )
+        return self
+
+    @model_validator(mode="after")
     def mission_fits(self) -> "CoverageParameters":
         """Refuse a plan that cannot be flown."""
         check_mission(self.mission, self.tasks.programme, self.swarm.robots)
@@ -263,7 +273,13 @@ FRACTAL: Groups = {
     "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
     "formation": {"shape": "fractal"},
 }
-SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY, FRACTAL)
+NETWORK: Groups = {
+    "swarm": {"robots": 16, "time_cap": 600.0},
+    "tasks": {"stop": False, "count": 3},
+    "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
+    "formation": {"shape": "network"},
+}
+SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY, FRACTAL, NETWORK)
 
 
 def coverage_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> CoverageParameters:
@@ -271,7 +287,8 @@ def coverage_parameters(setting: int | None = None, robots: int | None = None, *
 
     Args:
         setting: 0 a tour of all phases; 1 and 2 Table I with delta 1.2 and 2.4 m; 3 and 4 Fig. 4a and 4b; 5 Fig. 5;
-            6 the idealised scenario; 7 the laboratory's stand-in; 8 a fractal of 43 robots. None means 0.
+            6 the idealised scenario; 7 the laboratory's stand-in; 8 a fractal of 43 robots; 9 a network of 16.
+            None means 0.
         robots: master and backbone together; None means the setting's own.
         groups: fields to change, by group: ``behaviour={"variant": "safe"}``.
 

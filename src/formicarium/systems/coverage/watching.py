@@ -13,6 +13,7 @@ from formicarium.systems.coverage.fractals import fractal_columns
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role, outcome, role_of
 from formicarium.systems.coverage.memory import NEVER, Mode, Stage
+from formicarium.systems.coverage.networks import network_columns
 from formicarium.systems.coverage.parameters import CoverageParameters
 from formicarium.trial.film import NOWHERE, shoot_robots
 from formicarium.trial.record import FLOOR, Polygon, Scene
@@ -85,13 +86,13 @@ def roll(state, cycles, every, film):
 
 def outcome_row(parameters: CoverageParameters, state: Any, events: np.ndarray) -> Mapping[str, Any]:
     """Return the row of a finished trial with the numbers that say which trial it was."""
-    shaped = fractal_columns(parameters, state) if parameters.formation.shape == "fractal" else {}
+    columns = {"fractal": fractal_columns, "network": network_columns}.get(parameters.formation.shape)
     return {
         "robots": parameters.swarm.robots,
         "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
         "spacing_m": parameters.behaviour.spacing,
         "variant": parameters.behaviour.variant,
-    } | outcome(state, events) | shaped
+    } | outcome(state, events) | (columns(parameters, state) if columns else {})
 
 
 def inspect(state: Any, identity: int) -> Inspection:
