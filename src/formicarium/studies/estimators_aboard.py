@@ -1,6 +1,6 @@
 """Could the robots of an eruption know how connected they are? The estimators on their own messages (ST-73)."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,8 @@ from formicarium.connectivity.estimate import Estimates, estimate
 from formicarium.connectivity.exact import algebraic_connectivity, random_walk_connectivity
 from formicarium.connectivity.parameters import EstimatorTable, estimator
 from formicarium.connectivity.scores import ONE_PERCENT, TEN_PERCENT, reached, relative_error
-from formicarium.studies.estimators import as_text
+from formicarium.studies.curves import CurvePanel, CurveSheet, Line
+from formicarium.studies.estimators import as_text, from_text
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.parameters import CoverageParameters, coverage_parameters
 from formicarium.systems.coverage.setup import begin
@@ -58,7 +59,7 @@ def sail(parameters: CoverageParameters, seed: int, every: int) -> Voyage:
     received = np.zeros((cycles, size, size), bool)
     sight = []
     for cycle in range(cycles):
-        if cycle % every == 1 % every:  # in the first cycle nobody has spoken yet
+        if cycle > 0 and (cycle - 1) % every == 0:  # in the first cycle nobody has spoken yet
             sight.append(state.sight.astype(bool))
         run(state, 1)
         state.clock[0].event_count = 0
@@ -180,3 +181,62 @@ ABOARD = System(
     targets=Targets(columns={}, published={}, published_label="", published_cap=1.0),
     timeline=lambda _: Timeline((), (), (), (), 0.0),
 )
+
+
+Row = Mapping[str, Any]
+LOSS = "eruption.footbot.radio_loss"
+COLUMNS = {
+    "error": "median error over the run",
+    "error_last_third": "in the last third, robots hardly moving",
+    "within_half": "share of time within 50 %",
+    "within_tenth": "within 10 %",
+    "within_hundredth": "within 1 %",
+    "lag_s": "lag (s)",
+    "error_at_lag": "error at that lag",
+    "frozen_s": "the graph frozen, nothing lost: within 10 % after (s)",
+    "frozen_error": "and the error in the end",
+}
+LOWEST, HIGHEST = 1e-3, 30.0  # of the figure's axis
+
+
+def cells_of(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Return a row for each estimator and share of lost messages: medians over runs; what no run has counts as inf."""
+    cells = []
+    for loss in dict.fromkeys(row[LOSS] for row in rows):
+        own = [row for row in rows if row[LOSS] == loss]
+        for method in ESTIMATORS:
+            numbers: dict[str, Any] = {"estimator": method, "lost": loss, "runs": len(own)}
+            for name in COLUMNS:
+                values = [row[f"{method.lower()}_{name}"] for row in own]
+                numbers[name] = float(np.median([np.inf if value is None else value for value in values]))
+            cells.append(numbers)
+    return cells
+
+
+def report(cells: Sequence[Mapping[str, Any]]) -> str:
+    """Return the table of cells in Markdown."""
+    lines = ["# Estimators on the messages of an eruption", "", "Medians over runs; the median robot. -: never.", ""]
+    lines.append("| | " + " | ".join(f"{c['estimator']}, {100 * c['lost']:g} % lost" for c in cells) + " |")
+    lines.append("|---" * (len(cells) + 1) + "|")
+    for name, words in COLUMNS.items():
+        values = (f"{cell[name]:.3g}" if np.isfinite(cell[name]) else "-" for cell in cells)
+        lines.append(f"| {words} | " + " | ".join(values) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def figure_of(rows: Sequence[Row]) -> CurveSheet:
+    """What the robots said and what was true, in the first run of each share of lost messages."""
+    panels = []
+    for loss in dict.fromkeys(row[LOSS] for row in rows):
+        row = next(row for row in rows if row[LOSS] == loss)
+        across = []
+        for method in ESTIMATORS:
+            truth, said = (from_text(row[f"{method.lower()}_{name}"]) for name in ("truth", "said"))
+            times = float(row["step_s"]) * np.arange(1, len(truth) + 1)
+            what = "mu2" if method == "Wave" else "lambda2"
+            lines = [Line("exact", times, truth, 0), Line("the median robot says", times, np.abs(said), 1)]
+            title = f"{method}, {100 * loss:g} % lost"
+            across.append(CurvePanel(title, "time (s)", what, lines, span=(LOWEST, HIGHEST)))
+        panels.append(across)
+    note = f"{rows[0]['robots']} robots, three arms, one iteration a cycle; seed {rows[0]['seed']}"
+    return CurveSheet("Estimates of connectivity during an eruption", note, panels)

@@ -7,7 +7,7 @@ import pytest
 
 from formicarium.contracts.states import copy_of
 from formicarium.systems.coverage.branches import descends, level_of, swing_of
-from formicarium.systems.coverage.fractals import area, boxes, design, dimension, fractal_columns
+from formicarium.systems.coverage.fractals import SHIFTS, area, boxes, design, dimension, fractal_columns, sampled
 from formicarium.systems.coverage.parameters import coverage_parameters
 from formicarium.systems.coverage.study import run_trial
 from systems.coverage.swarm import advance, line, stay, swarm
@@ -60,9 +60,7 @@ def test_nobody_goes_over_where_the_design_has_no_more_branchings():
 def test_who_goes_over_joins_the_child_with_fewer_robots():
     """Robots 5 and 6 stand in child 1 already, beside the root; robot 4 is next."""
     for child in (1, 2):
-        state = queue(patience=0.0)
-        state.memories.branch[4:] = 0
-        state.memories.placed[4] = state.clock[0].cycle + 20  # not yet
+        state = queue(patience=2.0)
         for robot in (5, 6):
             state.memories.branch[robot] = child
             state.memories.place[robot] = robot - 4
@@ -126,15 +124,24 @@ def grid(count):
     return 20.0 * np.array(lines)
 
 
-def test_dimensions_of_a_line_and_of_a_filled_square_are_1_and_2():
-    assert dimension(np.array([((0.0, 0.3), (20.0, 7.0))]), 0.5) == pytest.approx(1.0, abs=0.05)
-    assert dimension(grid(60), 0.5) == pytest.approx(2.0, abs=0.1)
+def test_a_line_lies_in_as_many_boxes_as_it_should():
+    """Over all shifts of the grid the mean is 1 + (|dx| + |dy|) / size. So a short line has less than one dimension."""
+    line = np.array([((0.0, 0.3), (20.0, 7.0))])
+    for size in (0.5, 2.0, 8.0):
+        counts = [boxes(sampled(line), size, i, j) for i in range(SHIFTS) for j in range(SHIFTS)]
+        assert np.mean(counts) == pytest.approx(1.0 + 26.7 / size, rel=0.03)
+    assert 0.9 < dimension(line, 0.5) < 1.0
+
+
+def test_a_filled_square_has_twice_the_dimension_of_a_line():
+    one = dimension(np.array([((0.0, 0.0), (20.0, 0.0))]), 0.5)
+    assert dimension(grid(60), 0.5) == pytest.approx(2.0 * one, rel=0.03)
 
 
 def test_boxes_are_counted_as_by_hand():
     points = np.array([(0.1, 0.1), (0.9, 0.9), (1.1, 0.1)])
     assert boxes(points, 1.0, 0, 0) == 2
-    assert boxes(points, 1.0, 1, 0) == 3  # shifted by a quarter: 0.35, 1.15, 1.35
+    assert boxes(points, 1.0, 0, 1) == 3  # shifted up by a quarter: 0.35, 1.15, 0.35
     assert boxes(points, 10.0, 0, 0) == 1
 
 

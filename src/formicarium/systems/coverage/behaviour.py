@@ -19,6 +19,7 @@ from formicarium.systems.coverage.listening import (
 from formicarium.systems.coverage.master import lead
 from formicarium.systems.coverage.memory import Mode, Shape, Stage
 from formicarium.systems.coverage.messages import speak
+from formicarium.systems.coverage.tubes import find_tips
 
 SAFE = 2  # place of "safe" among the variants
 FLOCKING = 1  # place of "flocking" among the kinds of rendez-vous
@@ -63,6 +64,8 @@ def listen(reading, memory, table, chart):
     """Take in what was heard: the phase, the way to the master, the arms, the reference, and word of reached tasks."""
     carry(reading, memory)
     hear_phase(reading, memory)
+    if chart.formation.shape == Shape.NETWORK:
+        find_tips(reading, memory, table, chart)
     if memory.master == 1:
         stay_master(memory, reading.cycle)
     else:
@@ -72,7 +75,7 @@ def listen(reading, memory, table, chart):
             find_reference(reading, memory)
             take_directions(reading, memory, table)
         else:
-            take_part(reading, memory, table, chart)
+            take_part(reading, memory, table, chart.formation)
             take_directions(reading, memory, table)
             turn_off(memory, chart.formation)
     count_behind(reading, memory)

@@ -24,18 +24,15 @@ from formicarium.systems.coverage.eruption import be_lost, note_alignment, spira
 from formicarium.systems.coverage.forces import clear, cut, push_from
 from formicarium.systems.coverage.listening import round_of
 from formicarium.systems.coverage.memory import Shape, Stage
-from formicarium.systems.coverage.tubes import TUBE_BYTES, find_tips, flow, is_far_end, say_flow, thinnest_tube
+from formicarium.systems.coverage.tubes import TUBE_BYTES, flow, is_far_end, say_flow, thinnest_tube
 
 BRANCH_BYTES = 4  # two for the branch, one for the place, one for the followers
 MOST_FOLLOWERS = 255
 
 
 @compiled
-def take_part(reading, memory, table, chart):
+def take_part(reading, memory, table, formation):
     """Find one's place in an arm that branches, and whom to align with."""
-    formation = chart.formation
-    if formation.shape == Shape.NETWORK:
-        find_tips(reading, memory, table, chart)
     find_place(reading, memory, table, formation)
     count_followers(reading, memory)
     if formation.shape == Shape.NETWORK:

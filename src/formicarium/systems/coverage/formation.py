@@ -22,8 +22,12 @@ class FormationTable(Table):
     )
     branch_robots: int = number(2, "1", "of a branch; the last one is the root of the next [choice]", ge=1, le=60)
     branches: int = number(2, "1", "fractal: m, that a tip branches into [choice]", ge=1, le=BRANCHES)
-    angle: float = number(math.radians(60.0), "rad", "fractal: of the outermost to the branch before them [choice]", ge=0)
-    ratio: float = number(0.6, "1", "fractal: q, of the delta of a branch to that of the one before [ST-75]", gt=0, le=1)
+    angle: float = number(
+        math.radians(60.0), "rad", "fractal: of the outermost to the branch before them [choice]", ge=0
+    )
+    ratio: float = number(
+        0.6, "1", "fractal: q, of the delta of a branch to that of the one before [ST-75]", gt=0, le=1
+    )
     depth: int = number(2, "1", "fractal: branchings between the master and the last tips [ST-75]", ge=1, le=DEPTH)
     queue_share: float = number(0.375, "1", "of delta, between robots to spare at a tip [choice]", gt=0, le=1)
     patience: float = number(5.0, "s", "a robot is to spare for so long before it goes on [choice]", ge=0)

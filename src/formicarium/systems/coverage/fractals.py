@@ -116,7 +116,7 @@ def design(formation: Any, delta: float, arms: int) -> np.ndarray:
     """Return (L, 2, 2) the branches of the design, exactly as asked for (m)."""
     found = []
     for arm in range(arms):
-        ends = {}
+        ends: dict[int, tuple[float, float]] = {}
         for branch in branches_of(formation):
             length = formation.branch_robots * delta * formation.ratio ** level_of(branch)
             way = 2.0 * math.pi * arm / arms + swing_of(branch, formation)

@@ -15,7 +15,7 @@ Tube = tuple[int, int]  # arm and side
 
 def network_columns(parameters: CoverageParameters, state: Any) -> dict[str, int | float | None]:
     """Return the columns of a network's outcome row: lengths in m, shares of the robots other than the master."""
-    living = np.flatnonzero(np.asarray(state.robots.alive) == 1)
+    living = [int(i) for i in np.flatnonzero(np.asarray(state.robots.alive) == 1)]
     points = np.column_stack([state.world.bodies.x, state.world.bodies.y])
     memories = np.asarray(state.memories)
     tubes = joined_tubes(state, living)
@@ -38,8 +38,7 @@ def network_columns(parameters: CoverageParameters, state: Any) -> dict[str, int
     np.fill_diagonal(ranged, False)
     for name, graph in (("range", ranged), ("sight", np.asarray(state.sight) == 1)):
         own = graph[np.ix_(living, living)]
-        place = int(np.flatnonzero(living == state.survey[0].master)[0])
-        row[f"survived_{name}"], row[f"master_spared_{name}"] = survived(own, place)
+        row[f"survived_{name}"], row[f"master_spared_{name}"] = survived(own, living.index(state.survey[0].master))
     return row
 
 
@@ -53,7 +52,7 @@ def in_stem(memory: Any, state: Any) -> bool:
     return memory["branch"] == 0 and 0 < memory["place"] <= state.charts[0].formation.branch_robots
 
 
-def joined_tubes(state: Any, living: np.ndarray) -> dict[Tube, int]:
+def joined_tubes(state: Any, living: list[int]) -> dict[Tube, int]:
     """Return the tubes through which something flows, and the arm that each leads to."""
     found = {}
     for i in living:
@@ -80,7 +79,7 @@ def length_of(state: Any, points: np.ndarray, used: list[int], tubes: dict[Tube,
 
 
 def leads_back(memory: Any, arm: int, tubes: dict[Tube, int]) -> bool:
-    """Tell whether a robot of another arm can be the far end of a tube from ``arm``: of its stem, or of a tube to it."""
+    """Tell whether a robot of another arm can be the far end of a tube from ``arm``: of the stem, or of a tube back."""
     return memory["branch"] == 0 or tubes.get(tube_of(memory)) == arm
 
 

@@ -269,13 +269,13 @@ LABORATORY: Groups = {
 }
 FRACTAL: Groups = {
     "swarm": {"robots": 43, "time_cap": 600.0},
-    "tasks": {"stop": False, "count": 3},
+    "tasks": {"stop": False, "count": 3, "distance": 8.0},
     "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
     "formation": {"shape": "fractal"},
 }
 NETWORK: Groups = {
     "swarm": {"robots": 16, "time_cap": 600.0},
-    "tasks": {"stop": False, "count": 3},
+    "tasks": {"stop": False, "count": 3, "distance": 6.0},
     "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
     "formation": {"shape": "network"},
 }

@@ -87,12 +87,16 @@ def roll(state, cycles, every, film):
 def outcome_row(parameters: CoverageParameters, state: Any, events: np.ndarray) -> Mapping[str, Any]:
     """Return the row of a finished trial with the numbers that say which trial it was."""
     columns = {"fractal": fractal_columns, "network": network_columns}.get(parameters.formation.shape)
-    return {
-        "robots": parameters.swarm.robots,
-        "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
-        "spacing_m": parameters.behaviour.spacing,
-        "variant": parameters.behaviour.variant,
-    } | outcome(state, events) | (columns(parameters, state) if columns else {})
+    return (
+        {
+            "robots": parameters.swarm.robots,
+            "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
+            "spacing_m": parameters.behaviour.spacing,
+            "variant": parameters.behaviour.variant,
+        }
+        | outcome(state, events)
+        | (columns(parameters, state) if columns else {})
+    )
 
 
 def inspect(state: Any, identity: int) -> Inspection:
