@@ -54,6 +54,6 @@ def test_messages_are_those_that_the_radio_delivered(short):
 def test_a_run_has_a_row_of_every_estimator_and_repeats(short):
     one, two = fly(short, 3).outcome, fly(short, 3).outcome
     assert one == two
-    for method in ("pi1", "pi2", "wave"):
+    for method in ("pi1", "pi1_long", "pi2", "wave", "wave_long"):
         assert one[f"{method}_error"] > 0.0
         assert len(str(one[f"{method}_said"]).split()) == len(str(one[f"{method}_truth"]).split()) == 40

@@ -16,11 +16,12 @@ from formicarium.commands.errors import UserError
 from formicarium.studies.estimators_aboard import cells_of, figure_of, report
 
 DESIGN = "estimators-aboard"
+SHORTER: tuple[str, ...] = ()  # settings that tests add
 
 
 def run_study(folder: Path, runs: int | None, workers: int | None) -> int:
     """Run what the campaign lacks; return 0 if every run is done, 1 if some failed."""
-    return perform(_study(folder, Overrides(runs)), Request(workers=workers))
+    return perform(_study(folder, runs, None), Request(workers=workers))
 
 
 def draw_study(folder: Path, runs: int | None, sources: str | None) -> int:
@@ -32,7 +33,7 @@ def draw_study(folder: Path, runs: int | None, sources: str | None) -> int:
     """
     from formicarium.views.curves import draw_curves
 
-    study = _study(folder, Overrides(runs, sources=sources))
+    study = _study(folder, runs, sources)
     rows = tidy(Ledger(study.folder).rows(), study.jobs).to_pylist()
     if not rows:
         raise UserError(f"{folder}: no run of this study is there in {DESIGN}. Run it first.")
@@ -48,7 +49,7 @@ def draw_study(folder: Path, runs: int | None, sources: str | None) -> int:
     return 0 if len(rows) == study.total else 1
 
 
-def _study(folder: Path, overrides: Overrides) -> Study:
+def _study(folder: Path, runs: int | None, sources: str | None) -> Study:
     published = resources.files("formicarium.studies.published")
     with resources.as_file(published / f"{DESIGN}.toml") as path:
-        return open_study(str(path), str(folder / DESIGN), overrides)
+        return open_study(str(path), str(folder / DESIGN), Overrides(runs, SHORTER, sources))

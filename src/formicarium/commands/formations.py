@@ -22,11 +22,12 @@ DESIGNS = {
     "network": ("coverage-network", "coverage-network-failing"),
 }
 PICTURE_EVERY = 5.0  # s
+SHORTER: tuple[str, ...] = ()  # settings that tests add
 
 
 def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
     """Run what the campaigns lack; return 0 if every run is done, 1 if some failed."""
-    return max(perform(study, Request(workers=workers)) for study in _studies(figure, folder, Overrides(runs)))
+    return max(perform(study, Request(workers=workers)) for study in _studies(figure, folder, runs, None))
 
 
 def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
@@ -38,7 +39,7 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     """
     screen = Console()
     missing, there, written = 0, 0, []
-    for study in _studies(figure, folder, Overrides(runs, sources=sources)):
+    for study in _studies(figure, folder, runs, sources):
         rows = tidy(Ledger(study.folder).rows(), study.jobs).to_pylist()
         there += len(rows)
         missing += study.total - len(rows)
@@ -73,10 +74,10 @@ def _draw_first(study: Study, path: Path) -> Path:
     return draw_frame(trial.scene, trial.frames, path, title=f"{study.folder.name}\nseed {seed}")
 
 
-def _studies(figure: str, folder: Path, overrides: Overrides) -> list[Study]:
+def _studies(figure: str, folder: Path, runs: int | None, sources: str | None) -> list[Study]:
     published = resources.files("formicarium.systems.coverage.published")
     found = []
     for name in DESIGNS[figure]:
         with resources.as_file(published / f"{name}.toml") as path:
-            found.append(open_study(str(path), str(folder / name), overrides))
+            found.append(open_study(str(path), str(folder / name), Overrides(runs, SHORTER, sources)))
     return found

@@ -22,11 +22,24 @@ from formicarium.trial.record import EVENT, Scene, Timeline, Trial
 
 HALF = 0.5  # relative error of an estimate that still tells well from badly connected
 LONGEST_LAG = 120.0  # s, that is looked for
-FROZEN_ITERATIONS = {"PI1": 8001, "PI2": 60001, "Wave": 4001}  # on the graph in which the swarm ends
-ESTIMATORS: Mapping[str, EstimatorTable] = {
-    "PI1": estimator("PI1", norm="maximum"),  # the quickest of the honest ones (docs/results/connectivity.md)
-    "PI2": estimator("PI2"),
-    "Wave": estimator("Wave"),
+
+
+class Aboard(NamedTuple):
+    """An estimator, and how long it is given on a graph that stands still."""
+
+    estimator: EstimatorTable
+    frozen_iterations: int
+    title: str
+
+
+# The quickest of the honest ones (docs/results/connectivity.md), and for long arms such as can see a small lambda2:
+# PI1 settles on the eigenvalue nearest to alpha / (diffusions + 1), Wave tells apart what is 2 pi / window apart.
+ESTIMATORS: Mapping[str, Aboard] = {
+    "pi1": Aboard(estimator("PI1", norm="maximum"), 8001, "PI1"),
+    "pi1_long": Aboard(estimator("PI1", norm="maximum", diffusions=1000), 40001, "PI1, 1,000 diffusions"),
+    "pi2": Aboard(estimator("PI2"), 60001, "PI2"),
+    "wave": Aboard(estimator("Wave"), 4001, "Wave"),
+    "wave_long": Aboard(estimator("Wave", window=800), 4001, "Wave, window 800"),
 }
 
 
@@ -97,20 +110,20 @@ def median_node(values: np.ndarray) -> np.ndarray:
     return said
 
 
-def frozen(graph: np.ndarray, method: str, seed: int, cycle_time: float) -> tuple[float | None, float]:
+def frozen(graph: np.ndarray, which: Aboard, seed: int, cycle_time: float) -> tuple[float | None, float]:
     """Return after how long an estimator stays within 10 % if the graph stood still and no message was lost (s).
 
     And the error of the median node at the end.
     """
-    found = estimate(graph, ESTIMATORS[method], seed=seed, iterations=FROZEN_ITERATIONS[method], every=10)
-    errors = relative_error(found.values, truth_of(graph, method))
+    found = estimate(graph, which.estimator, seed=seed, iterations=which.frozen_iterations, every=10)
+    errors = relative_error(found.values, truth_of(graph, which.estimator))
     stays = reached(found.iterations, errors, TEN_PERCENT).stays
     return None if stays is None else stays * cycle_time, float(errors[-1])
 
 
-def truth_of(graph: np.ndarray, method: str) -> float:
+def truth_of(graph: np.ndarray, which: EstimatorTable) -> float:
     """Return what an estimator ought to say: lambda2, for Wave mu2."""
-    return random_walk_connectivity(graph) if method == "Wave" else algebraic_connectivity(graph)
+    return random_walk_connectivity(graph) if which.method == "Wave" else algebraic_connectivity(graph)
 
 
 def judge(said: Estimates, truth: np.ndarray, step: float) -> dict[str, float]:
@@ -153,13 +166,12 @@ def fly(
         "bytes_more": BYTES,
         "delivered_share": delivered_share(voyage, every),
     }
-    for method, which in ESTIMATORS.items():
-        truth = np.array([truth_of(graph, method) for graph in voyage.sight])
-        said = estimate_aboard(voyage.received[1:], which, seed=seed, every=every)
-        name = method.lower()
+    for name, which in ESTIMATORS.items():
+        truth = np.array([truth_of(graph, which.estimator) for graph in voyage.sight])
+        said = estimate_aboard(voyage.received[1:], which.estimator, seed=seed, every=every)
         row |= {f"{name}_{key}": value for key, value in judge(said, truth, step).items()}
         row[f"{name}_frozen_s"], row[f"{name}_frozen_error"] = frozen(
-            voyage.sight[-1], method, seed, swarm.swarm.cycle_time
+            voyage.sight[-1], which, seed, swarm.swarm.cycle_time
         )
         row[f"{name}_said"] = as_text(median_node(said.values))
         row[f"{name}_truth"] = as_text(truth)
@@ -204,10 +216,10 @@ def cells_of(rows: Sequence[Row]) -> list[dict[str, Any]]:
     cells = []
     for loss in dict.fromkeys(row[LOSS] for row in rows):
         own = [row for row in rows if row[LOSS] == loss]
-        for method in ESTIMATORS:
-            numbers: dict[str, Any] = {"estimator": method, "lost": loss, "runs": len(own)}
+        for key, which in ESTIMATORS.items():
+            numbers: dict[str, Any] = {"estimator": which.title, "lost": loss, "runs": len(own)}
             for name in COLUMNS:
-                values = [row[f"{method.lower()}_{name}"] for row in own]
+                values = [row[f"{key}_{name}"] for row in own]
                 numbers[name] = float(np.median([np.inf if value is None else value for value in values]))
             cells.append(numbers)
     return cells
@@ -230,12 +242,12 @@ def figure_of(rows: Sequence[Row]) -> CurveSheet:
     for loss in dict.fromkeys(row[LOSS] for row in rows):
         row = next(row for row in rows if row[LOSS] == loss)
         across = []
-        for method in ESTIMATORS:
-            truth, said = (from_text(row[f"{method.lower()}_{name}"]) for name in ("truth", "said"))
+        for key, which in ESTIMATORS.items():
+            truth, said = (from_text(row[f"{key}_{name}"]) for name in ("truth", "said"))
             times = float(row["step_s"]) * np.arange(1, len(truth) + 1)
-            what = "mu2" if method == "Wave" else "lambda2"
+            what = "mu2" if which.estimator.method == "Wave" else "lambda2"
             lines = [Line("exact", times, truth, 0), Line("the median robot says", times, np.abs(said), 1)]
-            title = f"{method}, {100 * loss:g} % lost"
+            title = f"{which.title}, {100 * loss:g} % lost"
             across.append(CurvePanel(title, "time (s)", what, lines, span=(LOWEST, HIGHEST)))
         panels.append(across)
     note = f"{rows[0]['robots']} robots, three arms, one iteration a cycle; seed {rows[0]['seed']}"

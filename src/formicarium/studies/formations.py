@@ -32,6 +32,7 @@ NETWORK = {
     "survived_range": "single failures survived, in range",
     "survived_sight": "single failures survived, in sight",
     "master_spared_range": "the master's, in range",
+    "unreached_range": "robots cut off at the end",
     "withered": "robots that left a tube",
     "bytes_most": "longest message (bytes)",
 }

@@ -50,6 +50,16 @@ def test_places_count_along_the_row_and_the_first_to_spare_goes_over():
     assert state.memories.branch[4] in (1, 2)
 
 
+def test_who_is_of_a_branch_without_a_root_goes_back_to_the_stem():
+    """The arm is two robots short of a root; the robot in the child has had nobody to align with for 50 cycles."""
+    state = queue(branch_robots=9)
+    state.memories.branch[3] = 1
+    stay(state, 45)
+    assert state.memories.branch[3] == 1
+    stay(state, 10)
+    assert state.memories.branch[3] == 0
+
+
 def test_nobody_goes_over_where_the_design_has_no_more_branchings():
     """The last branches take all who are left."""
     state = queue(branch_robots=60)

@@ -71,9 +71,15 @@ def test_a_closed_tube_takes_the_traffic_of_its_two_arms_and_an_open_one_none():
     state = stay(star(shares), 40)
     closed = [flux_of(memory.arms, memory.arm_count) for memory in state.memories]
     assert closed[7:] == [2.0, 2.0, 2.0] and closed[0] == 4.0
-    state = stay(star(shares[:2]), 40)
+    state = stay(star(shares[:1]), 40)
     opened = [flux_of(memory.arms, memory.arm_count) for memory in state.memories]
-    assert opened[7:] == [0.0, 0.0] and opened[0] == 6.0
+    assert opened[7:] == [0.0] and opened[0] == 6.0
+
+
+def test_a_tube_may_end_at_the_middle_of_the_next_arm():
+    """Its second robot hears the first of arm 2: 2.08 + 2.08 + 2.4 + 2.4 m are less than four delta."""
+    state = stay(star((0.25, 0.5)), 40)
+    assert [flux_of(memory.arms, memory.arm_count) for memory in state.memories[7:]] == [2.0, 2.0]
 
 
 def test_a_lost_tip_is_forgotten_and_does_not_count_to_infinity():
@@ -95,7 +101,7 @@ def test_conductance_follows_its_rule():
 
 
 def test_a_tube_that_leads_nowhere_withers_and_its_robots_try_the_other_side():
-    state = stay(star((0.25, 0.5), tube_time=20.0), 700)
+    state = stay(star((0.25,), tube_time=20.0), 700)
     assert (state.memories.withered[7:] >= 1).all()
     kept = stay(star((0.25, 0.5, 0.75), tube_time=20.0), 700)
     assert (kept.memories.withered == 0).all() and (kept.memories.branch[7:] == 1).all()

@@ -32,7 +32,12 @@ MOST_FOLLOWERS = 255
 
 @compiled
 def take_part(reading, memory, table, formation):
-    """Find one's place in an arm that branches, and whom to align with."""
+    """Find one's place in an arm that branches, and whom to align with; whose branch is no more goes back to the stem.
+
+    A root goes away when its arm is short of robots, or when it dies.
+    """
+    if memory.branch > 0 and reading.cycle - max(memory.reference_heard, memory.placed) > table.close_cycles:
+        enter(memory, 0, reading.cycle)
     find_place(reading, memory, table, formation)
     count_followers(reading, memory)
     if formation.shape == Shape.NETWORK:

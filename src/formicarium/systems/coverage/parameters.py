@@ -267,16 +267,24 @@ LABORATORY: Groups = {
     "tasks": {"distance": 3.0 * math.sqrt(2.0)},
     "footbot": LABORATORY_2018,
 }
+# Arms that branch are corrected for longer, and on single whole counts: a fractal has a place for every robot.
+FORMED: dict[str, Any] = {
+    "arm_choice": "quota",
+    "agreed_cycles": 1,
+    "correction_limit": 150.0,
+    "variant": "safe",
+    "strays": "return",
+}
 FRACTAL: Groups = {
     "swarm": {"robots": 43, "time_cap": 600.0},
     "tasks": {"stop": False, "count": 3, "distance": 8.0},
-    "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
+    "behaviour": FORMED,
     "formation": {"shape": "fractal"},
 }
 NETWORK: Groups = {
     "swarm": {"robots": 16, "time_cap": 600.0},
     "tasks": {"stop": False, "count": 3, "distance": 6.0},
-    "behaviour": {"arm_choice": "quota", "variant": "safe", "strays": "return"},
+    "behaviour": FORMED,
     "formation": {"shape": "network"},
 }
 SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY, FRACTAL, NETWORK)
