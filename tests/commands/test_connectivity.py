@@ -89,7 +89,7 @@ def test_the_study_is_run_and_drawn(monkeypatch, folder, capsys):
     assert "| PI1, author* | directed |" in report
     assert "| PI1, honest | directed |" in report
     assert exit_code(["study", "connectivity", "--figure", "4"]) == 2
-    assert "the study connectivity has 2, all" in capsys.readouterr().err
+    assert "the study connectivity has 2, all, aboard" in capsys.readouterr().err
     assert exit_code(["study", "connectivity", "--reference", "nowhere"]) == 2
     assert "A10s.mat" in capsys.readouterr().err
 

@@ -17,7 +17,7 @@ Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "schedu
 Figure = Literal[
     "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
     "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions", "planning-range",
-    "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
+    "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
 ]  # fmt: skip
 
 
@@ -64,10 +64,11 @@ def study(
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
         S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
-        in all) of partitioning; 2 of connectivity; 4, 5, table-1, arms, safe, drops, occlusion,
-        laboratory, scale, tours, planning-range and missions of coverage (the last two not in
-        all); table-2-time, table-2-travel (with figures 7 and 8), paper-model (in HiGHS, one
-        instance in ten), hundred-tasks and scale (up to 1,000) of scheduling.
+        in all) of partitioning; 2 of connectivity, and aboard (not in all: on the messages of an
+        eruption); 4, 5, table-1, arms, safe, drops, occlusion, laboratory, scale, tours,
+        planning-range, and missions, fractal and network (not in all) of coverage; table-2-time,
+        table-2-travel (with figures 7 and 8), paper-model (in HiGHS, one instance in ten),
+        hundred-tasks and scale (up to 1,000) of scheduling.
     out
         Folder of the campaigns, figures, tables and report.
     runs
@@ -139,14 +140,19 @@ def _connectivity(
     sources: tuple[str, ...],
     reference: str | None,
 ) -> int:
-    from formicarium.commands import connectivity_study
+    from formicarium.commands import aboard, connectivity_study
     from formicarium.commands.errors import UserError
 
+    runs_nothing = collect_only or sources
+    if figure == "aboard":
+        code = 0 if runs_nothing else aboard.run_study(out, runs, workers)
+        return max(code, aboard.draw_study(out, runs, sources[0] if sources else None))
     if figure not in connectivity_study.FIGURES:
-        raise UserError(f"--figure {figure}: the study connectivity has {', '.join(connectivity_study.FIGURES)}")
+        raise UserError(
+            f"--figure {figure}: the study connectivity has {', '.join(connectivity_study.FIGURES)}, aboard"
+        )
     if len(sources) > 1:
         raise UserError("--sources: the study connectivity takes one")
-    runs_nothing = collect_only or sources
     code = 0 if runs_nothing else connectivity_study.run_study(out, runs, workers, reference)
     return max(code, connectivity_study.draw_study(out, runs, reference, sources[0] if sources else None))
 
@@ -154,18 +160,21 @@ def _connectivity(
 def _coverage(
     figure: str, out: Path, runs: int | None, workers: int | None, collect_only: bool, sources: tuple[str, ...]
 ) -> int:
-    from formicarium.commands import missions, prominences
+    from formicarium.commands import formations, missions, prominences
     from formicarium.commands.errors import UserError
 
-    if figure not in (*prominences.DESIGNS, "missions"):
-        raise UserError(f"--figure {figure}: the study coverage has {', '.join(prominences.DESIGNS)}, missions")
+    known = (*prominences.DESIGNS, "missions", *formations.DESIGNS)
+    if figure not in known:
+        raise UserError(f"--figure {figure}: the study coverage has {', '.join(known)}")
     if len(sources) > 1:
         raise UserError("--sources: the study coverage takes one")
+    rows_of = sources[0] if sources else None
     if figure == "missions":
         code = 0 if collect_only or sources else missions.run_study(out, runs, workers)
-        return max(code, missions.draw_study(out, runs, sources[0] if sources else None))
-    code = 0 if collect_only or sources else prominences.run_study(figure, out, runs, workers)
-    return max(code, prominences.draw_study(figure, out, runs, sources[0] if sources else None))
+        return max(code, missions.draw_study(out, runs, rows_of))
+    study = formations if figure in formations.DESIGNS else prominences
+    code = 0 if collect_only or sources else study.run_study(figure, out, runs, workers)
+    return max(code, study.draw_study(figure, out, runs, rows_of))
 
 
 def _scheduling(

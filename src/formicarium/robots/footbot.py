@@ -103,6 +103,11 @@ ARM = np.dtype(
         ("leave", "f8"),  # probability with which a robot of this arm draws again in this round
         ("count", "i8"),  # robots of this arm among the speaker and those behind it
         ("reached", "i8"),  # hops for which word that the arm's tip is at its task still travels; 0: none
+        ("open", "i8"),  # of networks: 1 if a way to the arm's tip is known
+        ("way", "f8"),  # m, its length
+        ("next", "i8"),  # number of the robot that it goes through first; 0: none
+        ("load", "i8"),  # tips that send to that tip through the speaker
+        ("told", "i8"),  # cycle at which the way was last found; stays with the robot
     ],
     align=True,
 )
@@ -139,6 +144,9 @@ SAID = [
     ("way_aside", "f8"),
     ("facing", "f8"),  # rad
     ("credited", "i8"),  # a bit for each task that is known to be done
+    ("branch", "i8"),  # of arms that branch: which of its arm, 0: the stem
+    ("place", "i8"),  # counted along the branch from 1; 0: none
+    ("followers", "i8"),  # the speaker and all that align with it, directly or not
     ("arm_count", "i8"),  # arms spoken of
     ("arms", ARM, ARMS),
 ]

@@ -16,6 +16,10 @@ from systems.coverage.swarm import advance, line, move, stay, swarm
 
 EXACT = 1e-9
 EVERY_PHASE = [(0, 40, {}), (2, 300, {}), (2, 300, {"behaviour": {"variant": "safe"}}), (6, 300, {})]
+EVERY_PHASE += [
+    (8, 300, {"formation": {"shape": "fractal", "branch_robots": 1}}),
+    (9, 300, {"formation": {"shape": "network", "branch_robots": 1}}),
+]
 
 
 def next_commands(state):
@@ -94,7 +98,20 @@ def test_when_messages_stop_robots_have_no_reference():
 
 def test_a_controller_calls_no_linear_algebra_and_no_graph_search():
     """Trap 5: what it may call is what its modules import; none of it is an observer or NumPy's."""
-    for name in ("behaviour", "listening", "eruption", "flocking", "forces", "keeping", "arms", "master", "messages"):
+    for name in (
+        "behaviour",
+        "listening",
+        "eruption",
+        "flocking",
+        "forces",
+        "keeping",
+        "arms",
+        "master",
+        "messages",
+        "branches",
+        "branching",
+        "tubes",
+    ):
         module = import_module(f"formicarium.systems.coverage.{name}")
         assert "np" not in vars(module) and "scipy" not in vars(module)
 

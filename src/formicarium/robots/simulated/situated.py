@@ -104,6 +104,9 @@ def hear(packet, message, entry):
     packet.term = message.term
     if message.term > 0:
         hear_of_leader(packet, message)
+    packet.branch = message.branch
+    packet.place = message.place
+    packet.followers = message.followers
     packet.arm_count = message.arm_count
     for k in range(message.arm_count):
         packet.arms[k].task = message.arms[k].task
@@ -113,6 +116,10 @@ def hear(packet, message, entry):
         packet.arms[k].leave = message.arms[k].leave
         packet.arms[k].count = message.arms[k].count
         packet.arms[k].reached = message.arms[k].reached
+        packet.arms[k].open = message.arms[k].open
+        packet.arms[k].way = message.arms[k].way
+        packet.arms[k].next = message.arms[k].next
+        packet.arms[k].load = message.arms[k].load
     packet.named = 1 if entry >= 0 else 0
     packet.bearing_of_me = message.entries[entry].bearing if entry >= 0 else 0.0
 

@@ -39,3 +39,5 @@ def choose_arm(reading, memory, table):
     elif memory.arm == 0 or chance(memory) < memory.arms[memory.arm - 1].leave:
         memory.arm = draw_arm(memory)
         memory.aligned = 0
+        memory.branch = 0
+        memory.place = 0

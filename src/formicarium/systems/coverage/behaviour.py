@@ -4,6 +4,7 @@ from formicarium.compiled import compiled
 from formicarium.control.turning import drive_towards
 from formicarium.systems.coverage.arms import choose_arm
 from formicarium.systems.coverage.election import hear_leader, is_root, rally
+from formicarium.systems.coverage.branching import bytes_more, grow, say_place, take_part, turn_off
 from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
 from formicarium.systems.coverage.flocking import flock
 from formicarium.systems.coverage.forces import clear, press
@@ -17,9 +18,10 @@ from formicarium.systems.coverage.listening import (
     stay_master,
 )
 from formicarium.systems.coverage.master import lead
-from formicarium.systems.coverage.memory import Mode, Stage
+from formicarium.systems.coverage.memory import Mode, Shape, Stage
 from formicarium.systems.coverage.messages import speak
 from formicarium.systems.coverage.placing import find_place
+from formicarium.systems.coverage.tubes import find_tips
 
 SAFE = 2  # place of "safe" among the variants
 FLOCKING = 1  # place of "flocking" among the kinds of rendez-vous
@@ -45,7 +47,10 @@ def decide(reading, memory, command, table, chart, footbot):
     elif memory.mode == Mode.FLOCK:
         keep_up(reading, memory, command, table, footbot)
     elif memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
-        erupt(reading, memory, command, table, chart, footbot)
+        if chart.formation.shape == Shape.STAR:
+            erupt(reading, memory, command, table, chart, footbot)
+        else:
+            grow(reading, memory, command, table, chart.formation, footbot)
     elif memory.mode == Mode.GATHER:
         gather(reading, memory, command, table, footbot)
     else:
@@ -53,7 +58,9 @@ def decide(reading, memory, command, table, chart, footbot):
         clear(command)
     drive(reading, memory, command, table, chart, footbot)
     command.colour = memory.arm
-    speak(reading, memory, command, footbot.message_bytes)
+    speak(reading, memory, command, footbot.message_bytes - bytes_more(memory, chart.formation))
+    if chart.formation.shape != Shape.STAR:
+        say_place(memory, command, chart.formation)
 
 
 @compiled
@@ -63,13 +70,20 @@ def listen(reading, memory, table, chart):
     if memory.term > 0:
         hear_leader(reading, memory, table, chart)
     hear_phase(reading, memory)
+    if chart.formation.shape == Shape.NETWORK:
+        find_tips(reading, memory, table, chart)
     if is_root(memory, reading.identity):
         stay_master(memory, reading.cycle)
     else:
         find_way(reading, memory, table, chart)
         choose_arm(reading, memory, table)
-        find_reference(reading, memory)
-        take_directions(reading, memory, table)
+        if chart.formation.shape == Shape.STAR:
+            find_reference(reading, memory)
+            take_directions(reading, memory, table)
+        else:
+            take_part(reading, memory, table, chart.formation)
+            take_directions(reading, memory, table)
+            turn_off(memory, chart.formation)
         find_place(reading, memory, table)
     count_behind(reading, memory)
     hear_reached(reading, memory, table)

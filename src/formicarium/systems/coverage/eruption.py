@@ -88,7 +88,7 @@ def erupt(reading, memory, command, table, chart, footbot):
             press(reading, memory, command, table, spacing_now(reading, memory, table), memory.arm, footbot.speed)
         else:
             memory.stage = Stage.SPIRALLING
-            spiral(reading, memory, command, table, footbot)
+            spiral(reading, memory, command, table, footbot, memory.spacing)
     elif memory.linked == 1 and reading.cycle - memory.reference_heard <= table.fresh_cycles:
         memory.stage = Stage.BLIND
         press(reading, memory, command, table, memory.spacing, memory.arm, footbot.speed)
@@ -125,11 +125,11 @@ def note_alignment(memory, table):
 
 
 @compiled
-def spiral(reading, memory, command, table, footbot):
+def spiral(reading, memory, command, table, footbot, spacing):
     """Go round the reference towards the arm's line: v (cos a tangent + sin a outward) (ST-39, ST-40)."""
     packet = reading.packets[memory.reference_place]
     speed = footbot.speed
-    if packet.range > table.approach_share * memory.spacing or packet.range > table.approach_range:
+    if packet.range > table.approach_share * spacing or packet.range > table.approach_range:
         wish(command, packet.bearing, speed)
         return
     if packet.range < table.flee_range:

@@ -24,6 +24,8 @@ def forget_arms(memory):
     memory.arm_count = 0
     memory.correction = 0
     memory.drawn = 0
+    memory.branch = 0
+    memory.place = 0
     for k in range(len(memory.arms)):
         arm = memory.arms[k]
         arm.task = 0
@@ -33,6 +35,8 @@ def forget_arms(memory):
         arm.leave = 0.0
         arm.count = 0
         arm.reached = 0
+        arm.open = 0
+        arm.next = 0
 
 
 @compiled

@@ -22,6 +22,14 @@ class Mode(IntEnum):
     GATHER = 4
 
 
+class Shape(IntEnum):
+    """Into what arms grow."""
+
+    STAR = 0
+    FRACTAL = 1
+    NETWORK = 2
+
+
 class Stage(IntEnum):
     """What a robot is at."""
 
@@ -104,6 +112,14 @@ MEMORY = np.dtype(
         ("offset", "f8"),  # rad, phi: how far off the arm's line, as the reference sees it
         ("aligned", "i8"),
         ("flips", "i8"),  # how often that has changed
+        # where it is in an arm that branches
+        ("branch", "i8"),
+        ("place", "i8"),
+        ("place_since", "i8"),  # cycle since which it has that place
+        ("followers", "i8"),  # itself and all that align with it, directly or not
+        ("conductance", "f8"),  # C of its tube
+        ("withered", "i8"),  # how often it has left one
+        ("doubted", "i8"),  # cycles for which it has seemed to be nearer to the root
         ("spiral", "f8"),  # rad, how the present spiral opens
         ("turning", "i8"),  # Turning of the wheels
         # where it is by its own odometry, from where it started; once it is placed, in the map's frame
@@ -162,6 +178,24 @@ CHARTED = np.dtype(
     align=True,
 )
 
+# Into what arms grow.
+FORMATION = np.dtype(
+    [
+        ("shape", "i8"),  # Shape
+        ("branch_robots", "i8"),  # of a branch; the last is the root of the next
+        ("branches", "i8"),  # that one root has
+        ("angle", "f8"),  # rad, between the outermost of them and their stem
+        ("ratio", "f8"),  # of delta, a branch to the one before it
+        ("depth", "i8"),  # branchings between the master and the last tips
+        ("queue_share", "f8"),  # of delta, between robots to spare
+        ("patience", "i8"),  # cycles for which a robot is to spare before it goes
+        ("flux_power", "f8"),  # m of the conductance rule
+        ("tube_cycles", "f8"),  # its unit of time
+        ("thinnest", "f8"),  # conductance at which a tube withers
+    ],
+    align=True,
+)
+
 # What a robot is told before the trial. Only the master is told of tasks, unless others may follow it.
 CHART = np.dtype(
     [
@@ -181,6 +215,7 @@ CHART = np.dtype(
         ("paths", "i8"),  # robot-disjoint ones to a task
         ("region", "f8", 4),  # m, where a master may stand: ahead and aside from, to
         ("cycle_time", "f8"),
+        ("formation", FORMATION),
     ],
     align=True,
 )

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from formicarium.robots.footbot import ARMS, LABORATORY_2018, NOTEBOOK_2018, PACKETS, Footbot
+from formicarium.systems.coverage.formation import FormationTable
 from formicarium.systems.coverage.mission import MissionTable, check_mission
 from formicarium.tables import Table, number
 
@@ -238,6 +239,7 @@ class CoverageParameters(BaseModel):
     tasks: TaskTable = Field(default_factory=TaskTable)
     mission: MissionTable = Field(default_factory=MissionTable)
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
+    formation: FormationTable = Field(default_factory=FormationTable)
     footbot: Footbot = Field(default_factory=Footbot)
     observer: ObserverTable = Field(default_factory=ObserverTable)
     failures: FailureTable = Field(default_factory=FailureTable)
@@ -249,6 +251,16 @@ class CoverageParameters(BaseModel):
             raise ValueError(
                 f"behaviour.spacing = {self.behaviour.spacing:g} m is more than footbot.radio_range = "
                 f"{self.footbot.radio_range:g} m: nobody would hear anybody. Make spacing smaller or radio_range larger"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def tubes_fit(self) -> "CoverageParameters":
+        """Refuse a network of arms that have no two neighbours."""
+        if self.formation.shape == "network" and self.tasks.count < 3:
+            raise ValueError(
+                f"tasks.count = {self.tasks.count}: in a network (formation.shape) every arm has one neighbour on each "
+                "side. Make tasks.count 3 or more"
             )
         return self
 
@@ -306,7 +318,27 @@ LABORATORY: Groups = {
     "tasks": {"distance": 3.0 * math.sqrt(2.0)},
     "footbot": LABORATORY_2018,
 }
-SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY)
+# Arms that branch are corrected for longer, and on single whole counts: a fractal has a place for every robot.
+FORMED: dict[str, Any] = {
+    "arm_choice": "quota",
+    "agreed_cycles": 1,
+    "correction_limit": 150.0,
+    "variant": "safe",
+    "strays": "return",
+}
+FRACTAL: Groups = {
+    "swarm": {"robots": 43, "time_cap": 600.0},
+    "tasks": {"stop": False, "count": 3, "distance": 8.0},
+    "behaviour": FORMED,
+    "formation": {"shape": "fractal"},
+}
+NETWORK: Groups = {
+    "swarm": {"robots": 16, "time_cap": 600.0},
+    "tasks": {"stop": False, "count": 3, "distance": 6.0},
+    "behaviour": FORMED,
+    "formation": {"shape": "network"},
+}
+SETTINGS = (TOUR, TABLE_1_DENSE, TABLE_1_SPARSE, FIGURE_4A, FIGURE_4B, FIGURE_5, IDEAL, LABORATORY, FRACTAL, NETWORK)
 
 
 def coverage_parameters(setting: int | None = None, robots: int | None = None, **groups: Any) -> CoverageParameters:
@@ -314,7 +346,8 @@ def coverage_parameters(setting: int | None = None, robots: int | None = None, *
 
     Args:
         setting: 0 a tour of all phases; 1 and 2 Table I with delta 1.2 and 2.4 m; 3 and 4 Fig. 4a and 4b; 5 Fig. 5;
-            6 the idealised scenario; 7 the laboratory's stand-in. None means 0.
+            6 the idealised scenario; 7 the laboratory's stand-in; 8 a fractal of 43 robots; 9 a network of 16.
+            None means 0.
         robots: master and backbone together; None means the setting's own.
         groups: fields to change, by group: ``behaviour={"variant": "safe"}``.
 

@@ -14,6 +14,7 @@ from formicarium.streams import generator, stream
 from formicarium.systems.coverage.arena import Arena, make_arena, start_half_side
 from formicarium.systems.coverage.credit import TASK_SEEN
 from formicarium.systems.coverage.failures import make_failures
+from formicarium.systems.coverage.formation import write_formation
 from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
@@ -184,6 +185,7 @@ def make_charts(robots: np.recarray, p: CoverageParameters, arena: Arena) -> np.
     t, cycle_time = p.tasks, p.swarm.cycle_time
     charts.robots, charts.stop, charts.cycle_time = p.swarm.robots, int(t.stop), cycle_time
     for chart, robot in zip(charts, robots, strict=True):
+        write_formation(chart.formation, p.formation, cycle_time)
         if robot.key != 0 and p.behaviour.silence_cycles == 0:
             continue
         chart.programme = PROGRAMMES.index(t.programme)

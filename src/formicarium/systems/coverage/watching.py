@@ -9,9 +9,11 @@ from formicarium.compiled import compiled
 from formicarium.control.turning import Turning
 from formicarium.observers.graphs import Graph
 from formicarium.systems.coverage.arena import HALF_SIDE, circle
+from formicarium.systems.coverage.fractals import fractal_columns
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role, outcome, role_of
 from formicarium.systems.coverage.memory import NEVER, Mode, Stage
+from formicarium.systems.coverage.networks import network_columns
 from formicarium.systems.coverage.parameters import CoverageParameters
 from formicarium.systems.coverage.replanning import answer
 from formicarium.trial.film import NOWHERE, Film, shoot_robots
@@ -96,12 +98,17 @@ def roll_on(state, cycles, every, film):
 
 def outcome_row(parameters: CoverageParameters, state: Any, events: np.ndarray) -> Mapping[str, Any]:
     """Return the row of a finished trial with the numbers that say which trial it was."""
-    return {
-        "robots": parameters.swarm.robots,
-        "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
-        "spacing_m": parameters.behaviour.spacing,
-        "variant": parameters.behaviour.variant,
-    } | outcome(state, events)
+    columns = {"fractal": fractal_columns, "network": network_columns}.get(parameters.formation.shape)
+    return (
+        {
+            "robots": parameters.swarm.robots,
+            "tasks": len(parameters.mission.tasks) or parameters.tasks.count,
+            "spacing_m": parameters.behaviour.spacing,
+            "variant": parameters.behaviour.variant,
+        }
+        | outcome(state, events)
+        | (columns(parameters, state) if columns else {})
+    )
 
 
 def inspect(state: Any, identity: int) -> Inspection:
