@@ -54,13 +54,14 @@ def test_a_third_of_the_robots_begins_in_each_area():
 
 def test_who_gives_up_does_the_neighbouring_sub_task_as_well():
     memory, chart = records(MEMORY, 1)[0], records(CHART, 1)[0]
+    table = partitioning_parameters().strategy.record()[0]
     for subtasks, area, to_pick, expected in (
         (2, Area.SOURCE, False, Area.NEST), (2, Area.NEST, True, Area.SOURCE),
         (3, Area.SOURCE, False, Area.MIDDLE), (3, Area.MIDDLE, False, Area.NEST),
         (3, Area.NEST, True, Area.MIDDLE), (3, Area.MIDDLE, True, Area.SOURCE),
     ):  # fmt: skip
         chart.subtasks, memory.area = subtasks, area
-        assert next_area(memory, chart, to_pick) == expected
+        assert next_area(memory, table, chart, to_pick) == expected
 
 
 def test_the_middle_is_timed_from_drop_to_drop_and_a_way_out_of_it_measures_nothing():

@@ -31,6 +31,7 @@ class EventKind(IntEnum):
     ROLE = 13  # value: new Role; detail: old one
     ESTIMATES = 14  # on request, with each decision; subject: of harvesting, value: of storing, detail: of the whole
     PASSED_ON = 15  # dropped between two caches; subject: Label chosen; value: time measured; detail: Estimate
+    TAKEN_ON = 16  # picked up between two caches by a robot with a tree of tasks; the same
 
 
 class Role(IntEnum):
@@ -143,9 +144,10 @@ def note_hand_over(state, i):
     who = state.robots[i].identity
     clock = state.clock[0]
     waited = clock.cycle - memory.wait_began if memory.wait_began >= 0 else 0
-    if dropped and memory.set_out == Area.MIDDLE and memory.timer == clock.cycle:
+    if memory.set_out == Area.MIDDLE and memory.timer == clock.cycle:
         measured = int(memory.measured / state.chart[0].cycle_time + 0.5)
-        write_event(clock, state.events, EventKind.PASSED_ON, who, memory.label, measured, memory.updated)
+        decided = EventKind.PASSED_ON if dropped else EventKind.TAKEN_ON
+        write_event(clock, state.events, decided, who, memory.label, measured, memory.updated)
     if pair < 0:
         write_event(clock, state.events, EventKind.UNFOUNDED, who, memory.deed, 0, 0)
     kind = EventKind.DROPPED if dropped else EventKind.PICKED
@@ -153,6 +155,13 @@ def note_hand_over(state, i):
 
 
 HOUR = 3600.0  # s, window of Fig. 10
+
+
+def over_caches(events: np.ndarray, pairs: int, stored: int) -> dict[str, float]:
+    """Return how many objects each of two caches has given out for every one stored."""
+    picked = events[events["kind"] == EventKind.PICKED]["subject"]
+    first = int(((picked >= 0) & (picked < pairs)).sum())
+    return {"over_first": first / stored, "over_second": int((picked >= pairs).sum()) / stored}
 
 
 def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
@@ -172,7 +181,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     stored = number_of(EventKind.STORED)
     used = events[np.isin(kinds, (EventKind.DROPPED, EventKind.PICKED))]
     gave_up = events[kinds == EventKind.GAVE_UP]
-    deciding = (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN, EventKind.PASSED_ON)
+    deciding = (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN, EventKind.PASSED_ON, EventKind.TAKEN_ON)
     decided = events[np.isin(kinds, deciding)]
     corridor = decided[decided["subject"] == Label.CORRIDOR]
     actions = max(1, len(used) + len(gave_up) + len(corridor))
@@ -191,6 +200,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         row[f"{name}_by_hour"] = " ".join(map(str, np.bincount(windows, minlength=int(-(-duration // HOUR)))))
     row |= measured_times(events, cycle_time)
     if state.chart[0].subtasks == 3:
+        row |= over_caches(events, len(state.pairs) // 2, max(1, stored))
         passed = events[(kinds == EventKind.PASSED_ON) & (events["detail"] == Estimate.MIDDLE)]["value"] * cycle_time
         row |= {"middle_measured": len(passed), "middle_mean_s": float(passed.mean()) if len(passed) else None}
     waits = np.concatenate([used["value"][used["value"] > 0], gave_up["value"]]) * cycle_time
