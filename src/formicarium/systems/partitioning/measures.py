@@ -157,11 +157,21 @@ def note_hand_over(state, i):
 HOUR = 3600.0  # s, window of Fig. 10
 
 
-def over_caches(events: np.ndarray, pairs: int, stored: int) -> dict[str, float]:
-    """Return how many objects each of two caches has given out for every one stored."""
-    picked = events[events["kind"] == EventKind.PICKED]["subject"]
-    first = int(((picked >= 0) & (picked < pairs)).sum())
-    return {"over_first": first / stored, "over_second": int((picked >= pairs).sum()) / stored}
+def of_two_caches(events: np.ndarray, pairs: int, stored: int) -> dict[str, float]:
+    """Return for each of two caches how often it is chosen beside it, and objects given out for every one stored.
+
+    Beside the first cache robots decide after a harvest and, in the middle, without an object; beside the second after
+    a store and, in the middle, with one.
+    """
+    kinds, row = events["kind"], {}
+    beside = {"first": (EventKind.HARVESTED, EventKind.PASSED_ON), "second": (EventKind.STORED, EventKind.TAKEN_ON)}
+    for name, deciding in beside.items():
+        decided = events[np.isin(kinds, deciding)]["subject"]
+        row[f"chosen_{name}"] = int((decided == Label.CACHE).sum()) / max(1, len(decided))
+    picked = events[kinds == EventKind.PICKED]["subject"]
+    row["over_first"] = int(((picked >= 0) & (picked < pairs)).sum()) / stored
+    row["over_second"] = int((picked >= pairs).sum()) / stored
+    return row
 
 
 def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
@@ -200,7 +210,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         row[f"{name}_by_hour"] = " ".join(map(str, np.bincount(windows, minlength=int(-(-duration // HOUR)))))
     row |= measured_times(events, cycle_time)
     if state.chart[0].subtasks == 3:
-        row |= over_caches(events, len(state.pairs) // 2, max(1, stored))
+        row |= of_two_caches(events, len(state.pairs) // 2, max(1, stored))
         passed = events[(kinds == EventKind.PASSED_ON) & (events["detail"] == Estimate.MIDDLE)]["value"] * cycle_time
         row |= {"middle_measured": len(passed), "middle_mean_s": float(passed.mean()) if len(passed) else None}
     waits = np.concatenate([used["value"][used["value"] > 0], gave_up["value"]]) * cycle_time
