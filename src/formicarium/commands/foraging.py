@@ -15,7 +15,7 @@ from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
 from formicarium.commands.tables import events_of
-from formicarium.studies import foraging_anova, foraging_options
+from formicarium.studies import foraging_anova, foraging_hierarchy, foraging_options
 from formicarium.studies.foraging import Row, cells_of, consistent
 from formicarium.studies.foraging_claims import Runs, claims
 from formicarium.studies.foraging_figures import (
@@ -27,11 +27,13 @@ from formicarium.studies.foraging_figures import (
     figure_anova,
     figure_giving_up,
 )
+from formicarium.studies.foraging_hierarchy import figure_hierarchy
 from formicarium.studies.foraging_options import figure_options
 
 PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
 SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
 PATIENT, ANOVA, OPTIONS = "partitioning-patient", "partitioning-anova", "partitioning-options"
+HIERARCHY = "partitioning-hierarchy"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
 ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
@@ -46,6 +48,7 @@ DESIGNS = {
     "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
     "anova": (ANOVA,),
     "options": (OPTIONS,),
+    "hierarchy": (HIERARCHY,),
     "all": ALL,
 }
 FIGURES = {
@@ -57,6 +60,7 @@ FIGURES = {
     "giving-up": (figure_giving_up, GIVING_UP),
     "anova": (figure_anova, ANOVA),
     "options": (figure_options, OPTIONS),
+    "hierarchy": (figure_hierarchy, HIERARCHY),
 }
 
 
@@ -98,6 +102,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
         written += _write_anova(rows[ANOVA], folder)
     if rows.get(OPTIONS):
         written.append(_write_options(studies[OPTIONS], rows[OPTIONS], folder))
+    if rows.get(HIERARCHY):
+        written.append(_write(foraging_hierarchy.section(rows[HIERARCHY]), folder / "hierarchy.md"))
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -118,9 +124,13 @@ def _write_options(study: Study, rows: list[Row], folder: Path) -> Path:
     def log(row: Row) -> np.ndarray:
         return events_of(table.read(ledger.table_path("events", keys[row["cell"], row["seed"]])), study.system.kinds)
 
-    path = folder / "options.md"
+    return _write(foraging_options.section(rows, log), folder / "options.md")
+
+
+def _write(lines: list[str], path: Path) -> Path:
+    """Write lines of Markdown; return the path."""
     with replacing(path) as temporary:
-        temporary.write_text("\n".join(foraging_options.section(rows, log)) + "\n", encoding="utf-8")
+        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
 
 
