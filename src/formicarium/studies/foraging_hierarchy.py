@@ -57,10 +57,9 @@ def cuts_at_the_cheap_one_only(rows: Sequence[Row], period: float) -> tuple[str,
         cell = consistent(trees(rows, period, extra))
         if len(cell) < 2:
             return f"runs are missing (draw every {period:g} s)", None
-        cheap, dear = (chosen(cell, name) for name in (CACHES if extra > 0 else CACHES[::-1]))
-        said.append(
-            f"{'first' if extra > 0 else 'second'} cache cheap: {_percent(cheap)}, the dear one {_percent(dear)}"
-        )
+        cheap, dear = (chosen(cell, cache) for cache in (CACHES if extra > 0 else CACHES[::-1]))
+        name = "first" if extra > 0 else "second"
+        said.append(f"the {name} cache cheap: chosen {_percent(cheap)}, the dear one {_percent(dear)}")
         for share in (cheap, Mean(1 - dear.value, 1 - dear.high, 1 - dear.low, dear.number)):
             verdicts.append(True if share.low > HALF else False if share.high < HALF else None)
     return "; ".join(said), False if False in verdicts else None if None in verdicts else True
