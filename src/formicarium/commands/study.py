@@ -15,8 +15,8 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 
 Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
 Figure = Literal[
-    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options", "hierarchy",
-    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "table-2-time",
+    "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
+    "hierarchy", "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "table-2-time",
     "table-2-travel", "all",
 ]  # fmt: skip
 
