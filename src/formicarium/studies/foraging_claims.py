@@ -1,4 +1,4 @@
-"""The acceptance statements AC-1 to AC-28 on our runs: a sentence, numbers and a verdict each."""
+"""The acceptance statements AC-1 to AC-31 on our runs: a sentence, numbers and a verdict each."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 
 from formicarium.statistics.means import welch
-from formicarium.studies import foraging_anova, foraging_sizes
+from formicarium.studies import foraging_anova, foraging_method, foraging_sizes
 from formicarium.studies.foraging import TIMES, Row, Runs, column, consistent, picked, share_by_hour
 from formicarium.studies.foraging_sizes import above_surely
 
@@ -276,7 +276,7 @@ TESTS: list[tuple[str, str, Test]] = [
     ("AC-20", "without a change there is no reversal", _ac_20),
     ("AC-21", "never: objects per robot fall with N", foraging_sizes.never_falls),
     ("AC-22", "always and adaptive are best at N = 8", foraging_sizes.best_at_eight),
-    ("AC-23", "from 8 to 30 robots adaptive declines less than always", foraging_sizes.declines_less),
+    ("AC-23", "from 8 to 30 robots adaptive declines less than always, both Π", foraging_sizes.declines_less),
     ("AC-24", "adaptive better than always for N of 22 and more", foraging_sizes.above_always),
     ("AC-25", "adaptive better than never for N of 14 and more", foraging_sizes.above_never),
     ("AC-26", "ANOVA: high alpha is best (effect reported)", lambda runs: foraging_anova.alpha_effect(runs.anova)),
@@ -286,5 +286,8 @@ TESTS: list[tuple[str, str, Test]] = [
         lambda runs: foraging_anova.steepness_interaction(runs.anova),
     ),
     ("AC-28", "ANOVA: K and O matter (p < 0.001)", lambda runs: foraging_anova.giving_up_matters(runs.anova)),
+    ("AC-29", "the equations as the specification's tables have them", foraging_method.equations),
+    ("AC-30", "a scripted robot's times come out as by hand", foraging_method.scripted_times),
+    ("AC-31", "the cache's automaton, and objects kept", foraging_method.automaton),
     ("T27", "never: nobody stands still unnoticed (0.2 of the median)", _t_27),
 ]
