@@ -128,7 +128,8 @@ def _ac_9(runs: Runs) -> tuple[str, bool | None]:
     above = []
     for t, a, n in zip(TIMES, always, never, strict=True):
         worse = _cell(runs, "always" if a < n else "never", t)
-        above.append(above_surely(*(column(rows, "objects_per_robot") for rows in (_cell(runs, "adaptive", t), worse))))
+        ours, others = (column(rows, "objects_per_robot") for rows in (_cell(runs, "adaptive", t), worse))
+        above.append(above_surely(ours, others))
     near = _crossing(always, never)
     gates = [surely for t, surely in zip(TIMES, above, strict=True) if near is None or abs(t - near) > NEAR_CROSSING]
     said = f"adaptive / better reference: {_list(ratios, 2)} (target 0.9, {'met' if min(ratios) >= 0.9 else 'missed'})"

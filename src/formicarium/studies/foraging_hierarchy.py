@@ -11,8 +11,16 @@ PERIODS = (0.1, 10.0)  # s, between two draws of P_g
 DEAR = (200.0, -200.0)  # s, by which the second cache takes longer than the first
 HALF = 0.5  # of the decisions beside a cache: chosen more often, it is where the task is cut (as AC-12)
 CACHES = ("first", "second")
-HEADS = ("Π (s), first and second", "runs", "left out", "objects per robot")
-HEADS += ("first cache chosen", "second chosen", "objects over the first", "over the second")
+HEADS = (
+    "Π (s), first and second",
+    "runs",
+    "left out",
+    "objects per robot",
+    "first cache chosen",
+    "second chosen",
+    "objects over the first",
+    "over the second",
+)
 
 
 class Cell(NamedTuple):
@@ -72,7 +80,7 @@ def figure_hierarchy(rows: Sequence[Row]) -> Chart:
         for cache in CACHES:
             there = [(extra, consistent(trees(rows, period, extra))) for extra in sorted(DEAR)]
             there = [(extra, cell) for extra, cell in there if cell]
-            means = [Mean(*(100 * bound for bound in chosen(cell, cache)[:3]), len(cell)) for _, cell in there]
+            means = [_percentage(chosen(cell, cache)) for _, cell in there]
             traces.append(Trace(f"{cache} cache, draw every {period:g} s", [extra for extra, _ in there], means))
     kept = consistent(rows)
     note = f"{len(kept)} runs; {len(rows) - len(kept)} with phantom or lost objects left out; bars: 95 % intervals"
@@ -107,3 +115,7 @@ def section(rows: Sequence[Row]) -> list[str]:
 
 def _percent(mean: Mean) -> str:
     return f"{100 * mean.value:.0f} % ({100 * mean.low:.0f} to {100 * mean.high:.0f})"
+
+
+def _percentage(mean: Mean) -> Mean:
+    return Mean(100 * mean.value, 100 * mean.low, 100 * mean.high, mean.number)
