@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.image import imread
 
 from formicarium.statistics.means import mean_of, welch
-from formicarium.studies import foraging_anova
+from formicarium.studies import foraging_anova, foraging_tables
 from formicarium.studies.foraging import TIMES, cells_of, share_by_hour
-from formicarium.studies.foraging_claims import FAILS, HOLDS, OPEN, Runs, claims
+from formicarium.studies.foraging_claims import FAILS, HOLDS, OPEN, TOLD, Runs, claims
 from formicarium.studies.foraging_figures import figure_7, figure_8, figure_9, figure_10, figure_anova
 from formicarium.views.charts import draw_chart
 
@@ -90,7 +90,7 @@ def verdicts_of(rows):
 def test_the_effects_of_the_grid_are_found_with_their_size_and_sign():
     rows = grid()
     found = verdicts_of(rows)
-    assert found["AC-27"][0] == found["AC-28"][0] == HOLDS and found["AC-26"][0] == OPEN
+    assert found["AC-27"][0] == found["AC-28"][0] == HOLDS and found["AC-26"][0] == TOLD
     effect = foraging_anova.difference(rows, "strategy.alpha", 1.0, 0.5, [(0.0, 1.0)])
     assert effect.low < 5.0 < effect.high and effect.high - effect.low < 2.0
     turn = foraging_anova.difference(rows, "strategy.steepness", 10.0, 0.5, [(0.0, 1.0), (200.0, -1.0)])
@@ -247,3 +247,21 @@ def test_means_have_students_interval():
     assert (mean.value, round(mean.high - mean.value, 3)) == (2.0, 2.484)
     assert welch([1.0, 1.1, 0.9], [2.0, 2.1, 1.9]) < 0.001
     assert welch([1.0], [2.0, 3.0]) == 1.0
+
+
+def test_the_tables_tell_means_intervals_and_what_is_left_out():
+    rows = [row("always", 0.0, 400.0, s) | {"objects_per_robot": 400.0 + s} for s in (1, 2, 3)]
+    rows += [row("always", 0.0, 9.0, 4, consistent=0), row("never", 25.0, 150.0, consistent=0)]
+    lines = foraging_tables.performance(rows)
+    assert lines[2] == "| 0 |  | 402 (400 to 404) |  | 0/0, 1/4, 0/0 |"
+    assert lines[3] == "| 25 | *150* |  |  | 1/1, 0/0, 0/0 |"
+    crowded = foraging_tables.sizes(rows)
+    assert crowded[2:] == [
+        "| 10 | 0 |  | 402 (400 to 404) |  | 0/0, 1/4, 0/0 |", "| 10 | 25 | *150* |  |  | 1/1, 0/0, 0/0 |",
+    ]  # fmt: skip
+    drawn = row("adaptive", 50.0, 180.0) | {"cache.switch_time": -1.0, "strategy.giveup_draw_period": 10.0}
+    changed = row("adaptive", 200.0, 90.0) | {"cache.switch_time": 30000.0}
+    assert foraging_tables.giving_up([drawn], [changed])[2:] == [
+        "| every 10 s |  | 180, 68 % |  |  |", "| one threshold a wait |  |  |  | 90, 30 % |",
+    ]  # fmt: skip
+    assert foraging_tables.runs_of({"some": rows})[2] == "| some | 5 | 2 |"

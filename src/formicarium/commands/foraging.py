@@ -15,9 +15,9 @@ from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
 from formicarium.commands.tables import events_of
-from formicarium.studies import foraging_anova, foraging_hierarchy, foraging_options
-from formicarium.studies.foraging import Row, cells_of, consistent
-from formicarium.studies.foraging_claims import Runs, claims
+from formicarium.studies import foraging_anova, foraging_hierarchy, foraging_options, foraging_tables
+from formicarium.studies.foraging import Row, cells_of, picked
+from formicarium.studies.foraging_claims import Claim, Runs, claims
 from formicarium.studies.foraging_figures import (
     figure_7,
     figure_8,
@@ -147,24 +147,37 @@ def draw_implementation(figure: str, folder: Path) -> Path:
 
 
 def report(rows: dict[str, list[Row]]) -> str:
-    """Return in Markdown what the paper says, or what follows from it, and what our runs say."""
-    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))
-    counts = ", ".join(f"{name} {len(r)} ({len(r) - len(consistent(r))} left out)" for name, r in rows.items())
-    lines = ["# Task partitioning: the acceptance statements", "", f"Runs: {counts}.", ""]
-    lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
-    lines += [f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found]
+    """Return in Markdown what the paper says, or what follows from it, and what our runs say.
+
+    In blocks, which ``docs/fill.py`` puts into the page of results.
+    """
+    of = {name: rows.get(name, []) for name in ALL}
+    blocks = {
+        "runs": foraging_tables.runs_of(dict(of)),
+        "objects per robot": foraging_tables.performance(of[PERFORMANCE]),
+        "statements": _statements(claims(Runs(*(of[name] for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))),
+        "giving up": foraging_tables.giving_up(of[GIVING_UP], of[THRESHOLD]),
+    }
     for period in PERIODS:
-        chosen = [row for row in rows.get(PATIENT, []) if row["strategy.giveup_draw_period"] == period]
-        lines += ["", f"## With a draw of P_g every {period:g} s", ""]
-        lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
-        references = [row for row in rows.get(PERFORMANCE, []) if row["method"] != "adaptive"]
-        steady = [row for row in chosen if row["cache.switched_time"] == row["interfacing_time_s"]]
-        found = claims(Runs([*references, *steady], chosen))
-        lines += [
-            f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found if c.number in OF_THE_READING
-        ]
-    lines += foraging_anova.section(rows.get(ANOVA, []))
+        blocks[f"statements, draw every {period:g} s"] = _statements(claims_of_reading(of, period))
+    blocks |= {"sizes": foraging_tables.sizes(of[SCALABILITY]), "anova": foraging_anova.section(of[ANOVA])}
+    lines = ["# Task partitioning: what the runs say"]
+    for name, block in blocks.items():
+        lines += ["", f"<!-- block: {name} -->", *block, "<!-- end of block -->"]
     return "\n".join(lines) + "\n"
+
+
+def claims_of_reading(rows: dict[str, list[Row]], period: float) -> list[Claim]:
+    """Return the statements that patience can change, with the references and draws of P_g so long apart."""
+    chosen = picked(rows[PATIENT], strategy__giveup_draw_period=period)
+    references = [row for row in rows[PERFORMANCE] if row["method"] != "adaptive"]
+    steady = [row for row in chosen if row["cache.switched_time"] == row["interfacing_time_s"]]
+    return [claim for claim in claims(Runs([*references, *steady], chosen)) if claim.number in OF_THE_READING]
+
+
+def _statements(found: list[Claim]) -> list[str]:
+    lines = ["| | statement | ours | verdict |", "|---|---|---|---|"]
+    return lines + [f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found]
 
 
 def _write_anova(rows: list[Row], folder: Path) -> list[Path]:
