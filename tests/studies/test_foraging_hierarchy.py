@@ -66,5 +66,5 @@ def test_table_and_figure_show_every_cell(tmp_path):
     assert sum(line.startswith("| ") for line in lines) == 1 + 6
     assert "| always | 0, 200 | 1 | 1 | | | | | |" in lines
     assert {line.count("|") for line in lines if line.startswith("|")} == {10}
-    assert sum(": holds." in line for line in lines) == 2
+    assert sum(": **holds**;" in line for line in lines) == 2
     assert imread(draw_chart(figure_hierarchy(made), tmp_path / "figure.png")).std() > 0.01

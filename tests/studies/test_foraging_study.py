@@ -264,4 +264,4 @@ def test_the_tables_tell_means_intervals_and_what_is_left_out():
     assert foraging_tables.giving_up([drawn], [changed])[2:] == [
         "| every 10 s |  | 180, 68 % |  |  |", "| one threshold a wait |  |  |  | 90, 30 % |",
     ]  # fmt: skip
-    assert foraging_tables.runs_of({"some": rows})[2] == "| some | 5 | 2 |"
+    assert foraging_tables.runs_of({"some": [r | {"sources": "12ab"} for r in rows]})[2] == "| some | 5 | 2 | 12ab |"

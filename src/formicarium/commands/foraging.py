@@ -103,7 +103,7 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     if rows.get(OPTIONS):
         written.append(_write_options(studies[OPTIONS], rows[OPTIONS], folder))
     if rows.get(HIERARCHY):
-        written.append(_write(foraging_hierarchy.section(rows[HIERARCHY]), folder / "hierarchy.md"))
+        written.append(_write("hierarchy", foraging_hierarchy.section(rows[HIERARCHY]), folder))
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -124,14 +124,20 @@ def _write_options(study: Study, rows: list[Row], folder: Path) -> Path:
     def log(row: Row) -> np.ndarray:
         return events_of(table.read(ledger.table_path("events", keys[row["cell"], row["seed"]])), study.system.kinds)
 
-    return _write(foraging_options.section(rows, log), folder / "options.md")
+    return _write("options", foraging_options.section(rows, log), folder)
 
 
-def _write(lines: list[str], path: Path) -> Path:
-    """Write lines of Markdown; return the path."""
+def _write(name: str, lines: list[str], folder: Path) -> Path:
+    """Write a block of Markdown into a file of its own; return the path."""
+    path = folder / f"{name}.md"
     with replacing(path) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        temporary.write_text("\n".join(_block(name, lines)) + "\n", encoding="utf-8")
     return path
+
+
+def _block(name: str, lines: list[str]) -> list[str]:
+    """Return lines with the marks by which ``docs/fill.py`` knows them."""
+    return [f"<!-- block: {name} -->", *lines, "<!-- end of block -->"]
 
 
 def draw_implementation(figure: str, folder: Path) -> Path:
@@ -163,7 +169,7 @@ def report(rows: dict[str, list[Row]]) -> str:
     blocks |= {"sizes": foraging_tables.sizes(of[SCALABILITY]), "anova": foraging_anova.section(of[ANOVA])}
     lines = ["# Task partitioning: what the runs say"]
     for name, block in blocks.items():
-        lines += ["", f"<!-- block: {name} -->", *block, "<!-- end of block -->"]
+        lines += ["", *_block(name, block)]
     return "\n".join(lines) + "\n"
 
 

@@ -90,8 +90,7 @@ def figure_hierarchy(rows: Sequence[Row]) -> Chart:
 
 def section(rows: Sequence[Row]) -> list[str]:
     """Return table and verdicts as lines of Markdown."""
-    lines = ["# A tree of tasks (TP-O2)", "", f"{len(rows)} runs. Intervals: 95 %, over the runs that are kept.", ""]
-    lines += [f"| | {' | '.join(HEADS)} |", "|---" * (len(HEADS) + 1) + "|"]
+    lines = [f"| | {' | '.join(HEADS)} |", "|---" * (len(HEADS) + 1) + "|"]
     for cell in cells(rows):
         kept = consistent(cell.rows)
         out = len(cell.rows) - len(kept)
@@ -108,9 +107,8 @@ def section(rows: Sequence[Row]) -> list[str]:
     for period in PERIODS:
         words, verdict = cuts_at_the_cheap_one_only(rows, period)
         answer = "open" if verdict is None else "holds" if verdict else "fails"
-        lines.append(f"Cut at the cheap cache only, draw every {period:g} s: {answer}. {words}.")
-        lines.append("")
-    return lines[:-1]
+        lines.append(f"- Cut at the cheap cache only, draw every {period:g} s: **{answer}**; {words}.")
+    return lines
 
 
 def _percent(mean: Mean) -> str:

@@ -22,11 +22,12 @@ COURSES = {"Π 0": (0.0, -1.0), "Π 50": (50.0, -1.0), "Π 200": (200.0, -1.0), 
 
 
 def runs_of(campaigns: dict[str, Sequence[Row]]) -> list[str]:
-    """Return how many runs of each campaign there are, and how many are left out."""
-    lines = ["| campaign | runs | left out |", "|---|---|---|"]
-    return lines + [
-        f"| {name} | {len(rows)} | {len(rows) - len(consistent(rows))} |" for name, rows in campaigns.items()
-    ]
+    """Return how many runs of each campaign there are, how many are left out, and the sources that made them."""
+    lines = ["| campaign | runs | left out | sources |", "|---|---|---|---|"]
+    for name, rows in campaigns.items():
+        sources = ", ".join(sorted({str(row.get("sources", "")) for row in rows}))
+        lines.append(f"| {name} | {len(rows)} | {len(rows) - len(consistent(rows))} | {sources} |")
+    return lines
 
 
 def performance(rows: Sequence[Row]) -> list[str]:

@@ -17,6 +17,7 @@ from formicarium.systems.partitioning.middle import dropped_in_middle
 from formicarium.systems.partitioning.parameters import partitioning_parameters
 from formicarium.systems.partitioning.setup import begin
 from formicarium.systems.partitioning.study import run_trial
+from formicarium.trial.record import OBJECT
 
 THREE = {"subtasks": 3}
 
@@ -103,6 +104,17 @@ def test_with_three_areas_objects_pass_both_caches_and_nobody_crosses_one():
     left, right = inner_left - 0.12, inner_right + 0.12  # the middle of each cache: who is in a booth is on its side
     for before, after in zip(side, state.world.bodies.x, strict=True):
         assert (before < left) == (after < left) and (before > right) == (after > right)
+
+
+def test_objects_of_both_caches_are_shown():
+    """A frame has a light for every booth and a place for an object of every pair, and so has the scene."""
+    parameters = partitioning_parameters(robots=6, arena=THREE, swarm={"time_cap": 5.0})
+    trial = run_trial(parameters, 110097, frames_every=5.0)
+    places = [polygon for polygon in trial.scene.polygons if polygon.colour == OBJECT]
+    assert len(places) == 6 and trial.frames.lit.shape[1] == 20 + 6
+    x = [place.points[:, 0].mean() for place in places]
+    left, _, right, _ = make_arena(parameters.arena).middle_area
+    assert max(x[:3]) < left and min(x[3:]) > right
 
 
 @pytest.mark.long
