@@ -7,12 +7,15 @@ from formicarium.studies.foraging_options import (
     SWITCH,
     TIMES,
     cache_share,
+    changed,
     figure_options,
     gains,
     reaction_time,
     section,
     spread,
+    steeper_is_no_worse,
     table_of_changes,
+    talking_is_quicker,
 )
 from formicarium.systems.partitioning.measures import EventKind
 from formicarium.systems.partitioning.memory import Label
@@ -79,16 +82,42 @@ def rows():
 
 def made_up_log(row):
     talks = row["strategy.social_weight"] > 0
-    return log(3000.0 if talks else 9000.0, apart=0.05 if talks else 0.2)
+    later = 600.0 * row["seed"]
+    return log((3000.0 if talks else 9000.0) + later, apart=(0.05 if talks else 0.2) + 0.01 * row["seed"])
 
 
 def test_gains_and_reactions_come_out_as_they_were_put_in():
     found = {time: (gain, p_value) for time, gain, p_value in gains(rows())}
     assert found[0.0][0].value == pytest.approx(30.0, abs=2.5) and found[0.0][1] < 0.001
     assert all(abs(found[time][0].value) < 3.0 for time in TIMES[1:])
-    table = {(row["draw_period_s"], row["variant"]): row for row in table_of_changes(rows(), made_up_log)}
-    assert len(table) == 6 and table[10.0, "talking"]["reaction_median_s"] == 3600.0
-    assert table[10.0, "as in the paper"]["reaction_median_s"] == 9600.0
+    table = {(row["draw_period_s"], row["variant"]): row for row in table_of_changes(changed(rows(), made_up_log))}
+    assert len(table) == 6 and table[10.0, "talking"]["reaction_median_s"] == 4500.0
+    assert table[10.0, "as in the paper"]["reaction_median_s"] == 10500.0
     assert table[0.1, "talking"]["disagreement"] < table[0.1, "aged exploration"]["disagreement"]
     assert "| 10 s | talking | 4 |" in "\n".join(section(rows(), made_up_log))
     assert [len(trace.means) for trace in figure_options(rows()).panels[0].traces] == [5, 5]
+
+
+def test_the_verdicts_follow_the_runs_and_wait_for_them():
+    found = changed(rows(), made_up_log)
+    assert talking_is_quicker(found, 10.0)[1] is True
+    turned = {key: found[key[0], {"talking": "as in the paper", "as in the paper": "talking"}.get(key[1], key[1])]
+              for key in found}  # fmt: skip
+    assert talking_is_quicker(turned, 10.0)[1] is False
+    alike = {key: found[key[0], "talking"] for key in found}
+    assert talking_is_quicker(alike, 10.0)[1] is None
+    assert talking_is_quicker({}, 10.0) == ("runs are missing", None)
+    assert steeper_is_no_worse(gains(rows()))[1] is True
+    worse = [r | {"objects_per_robot": 100.0 + r["seed"]}
+             if r["strategy.steepness_most"] and r["interfacing_time_s"] == 50.0 else r for r in rows()]  # fmt: skip
+    assert steeper_is_no_worse(gains(worse)) == ("worse beyond chance at Π 50, better at the ends 0", False)
+    level = [r | {"objects_per_robot": 150.0 + r["seed"]} for r in rows()]
+    assert steeper_is_no_worse(gains(level))[1] is None
+    assert steeper_is_no_worse(gains([r for r in rows() if r["seed"] == 0]))[1] is None
+
+
+def test_who_never_reacts_is_slower_than_all_others():
+    found = changed(rows(), made_up_log)
+    silent = found[10.0, "as in the paper"]
+    found[10.0, "as in the paper"] = silent._replace(reactions=[float("inf")] * 4)
+    assert talking_is_quicker(found, 10.0)[1] is True and "against inf s" not in talking_is_quicker(found, 10.0)[0]

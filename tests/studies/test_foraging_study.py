@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.image import imread
 
 from formicarium.statistics.means import mean_of, welch
-from formicarium.studies import foraging_anova
+from formicarium.studies import foraging_anova, foraging_tables
 from formicarium.studies.foraging import TIMES, cells_of, share_by_hour
-from formicarium.studies.foraging_claims import FAILS, HOLDS, OPEN, Runs, claims
+from formicarium.studies.foraging_claims import FAILS, HOLDS, OPEN, TOLD, Runs, claims
 from formicarium.studies.foraging_figures import figure_7, figure_8, figure_9, figure_10, figure_anova
 from formicarium.views.charts import draw_chart
 
@@ -19,7 +19,7 @@ def row(method, time, objects, seed=1, **fields):
         "method": method, "interfacing_time_s": time, "robots": 10, "duration_s": 60000.0, "consistent": 1,
         "objects_per_robot": objects, "seed": seed, "phantoms": 0, "lost": 0, "escapes": 0, "least_share": 0.9,
         "share_used": {"never": 0.0, "always": 1.0, "adaptive": 0.8 - time / 400}[method],
-        "share_gave_up": 0.0,
+        "share_gave_up": 0.0, "harvested": 105, "stored": 100,
         "share_corridor": {"never": 1.0, "always": 0.0, "adaptive": 0.2 + time / 400}[method],
         "whole_mean_s": whole, "harvest_mean_s": parts, "store_mean_s": parts,
         "harvest_sd_s": parts, "store_sd_s": parts,
@@ -90,7 +90,7 @@ def verdicts_of(rows):
 def test_the_effects_of_the_grid_are_found_with_their_size_and_sign():
     rows = grid()
     found = verdicts_of(rows)
-    assert found["AC-27"][0] == found["AC-28"][0] == HOLDS and found["AC-26"][0] == OPEN
+    assert found["AC-27"][0] == found["AC-28"][0] == HOLDS and found["AC-26"][0] == TOLD
     effect = foraging_anova.difference(rows, "strategy.alpha", 1.0, 0.5, [(0.0, 1.0)])
     assert effect.low < 5.0 < effect.high and effect.high - effect.low < 2.0
     turn = foraging_anova.difference(rows, "strategy.steepness", 10.0, 0.5, [(0.0, 1.0), (200.0, -1.0)])
@@ -162,7 +162,42 @@ def test_where_no_run_of_a_crowd_is_clean_all_count_and_the_report_says_so():
     dirty = [r | {"consistent": int(not (r["method"] == "always" and r["robots"] >= 22))} for r in rows]
     found = of_sizes(dirty)
     assert found["AC-23"][0] == found["AC-24"][0] == HOLDS
-    assert "all count: always 22, always 26, always 30" in found["AC-24"][1]
+    assert "always 22: 0 of 4, all count; always 26: 0 of 4, all count" in found["AC-24"][1]
+    assert "all runs" not in found["AC-24"][1]
+
+
+def test_statements_on_sizes_are_asked_with_and_without_the_runs_left_out():
+    """One clean run in four of the largest crowds is not taken for all; two are, and what the others say is told."""
+    one = [r | {"consistent": int(r["robots"] < 22 or r["seed"] == 0)} for r in crowd(as_in_the_paper)]
+    assert "always 22: 1 of 4, all count" in of_sizes(one)["AC-24"][1]
+    lucky = crowd(as_in_the_paper, runs=8)
+    for r in lucky:
+        if r["method"] == "always" and r["robots"] == 30 and r["seed"] > 1:
+            r |= {"consistent": 0, "objects_per_robot": 900.0 + r["seed"]}
+    verdict, finding = of_sizes(lucky)["AC-24"]
+    assert verdict == HOLDS and "always 30: 2 of 8" in finding and "; all runs fail:" in finding
+
+
+def test_a_lead_that_may_be_chance_leaves_it_open():
+    near = crowd(lambda method, n: 100.0, noise=20.0)
+    found = of_sizes(near)
+    assert found["AC-23"][0] == found["AC-24"][0] == found["AC-25"][0] == OPEN
+    assert of_sizes(crowd(as_in_the_paper, runs=1))["AC-24"][0] == OPEN
+
+
+def test_one_interfacing_time_without_runs_does_not_silence_the_other():
+    some = [r for r in crowd(as_in_the_paper) if r["interfacing_time_s"] == 0.0 or r["robots"] <= 10]
+    verdict, finding = of_sizes(some)["AC-23"]
+    assert verdict == OPEN and "Π 0: 30 against 8 robots" in finding and "Π 25: runs are missing" in finding
+
+
+def test_the_method_itself_is_asked_in_every_report():
+    found = {claim.number: claim for claim in claims(Runs(performance()))}
+    assert [found[number].verdict for number in ("AC-29", "AC-30", "AC-31")] == [HOLDS] * 3
+    assert "92, 56, 350 s after a trace, by hand 92, 56, 350" in found["AC-30"].finding
+    assert "0 of 2048 steps" in found["AC-31"].finding
+    made = [r | {"stored": 110} for r in performance()]
+    assert {c.number: c.verdict for c in claims(Runs(made))}["AC-31"] == FAILS
 
 
 def test_statements_wait_for_the_runs_they_need():
@@ -212,3 +247,21 @@ def test_means_have_students_interval():
     assert (mean.value, round(mean.high - mean.value, 3)) == (2.0, 2.484)
     assert welch([1.0, 1.1, 0.9], [2.0, 2.1, 1.9]) < 0.001
     assert welch([1.0], [2.0, 3.0]) == 1.0
+
+
+def test_the_tables_tell_means_intervals_and_what_is_left_out():
+    rows = [row("always", 0.0, 400.0, s) | {"objects_per_robot": 400.0 + s} for s in (1, 2, 3)]
+    rows += [row("always", 0.0, 9.0, 4, consistent=0), row("never", 25.0, 150.0, consistent=0)]
+    lines = foraging_tables.performance(rows)
+    assert lines[2] == "| 0 |  | 402 (400 to 404) |  | 0/0, 1/4, 0/0 |"
+    assert lines[3] == "| 25 | *150* |  |  | 1/1, 0/0, 0/0 |"
+    crowded = foraging_tables.sizes(rows)
+    assert crowded[2:] == [
+        "| 10 | 0 |  | 402 (400 to 404) |  | 0/0, 1/4, 0/0 |", "| 10 | 25 | *150* |  |  | 1/1, 0/0, 0/0 |",
+    ]  # fmt: skip
+    drawn = row("adaptive", 50.0, 180.0) | {"cache.switch_time": -1.0, "strategy.giveup_draw_period": 10.0}
+    changed = row("adaptive", 200.0, 90.0) | {"cache.switch_time": 30000.0}
+    assert foraging_tables.giving_up([drawn], [changed])[2:] == [
+        "| every 10 s |  | 180, 68 % |  |  |", "| one threshold a wait |  |  |  | 90, 30 % |",
+    ]  # fmt: skip
+    assert foraging_tables.runs_of({"some": [r | {"sources": "12ab"} for r in rows]})[2] == "| some | 5 | 2 | 12ab |"

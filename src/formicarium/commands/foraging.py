@@ -15,9 +15,9 @@ from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
 from formicarium.commands.tables import events_of
-from formicarium.studies import foraging_anova, foraging_options
-from formicarium.studies.foraging import Row, cells_of, consistent
-from formicarium.studies.foraging_claims import Runs, claims
+from formicarium.studies import foraging_anova, foraging_hierarchy, foraging_options, foraging_tables
+from formicarium.studies.foraging import Row, cells_of, picked
+from formicarium.studies.foraging_claims import Claim, Runs, claims
 from formicarium.studies.foraging_figures import (
     figure_7,
     figure_8,
@@ -27,11 +27,13 @@ from formicarium.studies.foraging_figures import (
     figure_anova,
     figure_giving_up,
 )
+from formicarium.studies.foraging_hierarchy import figure_hierarchy
 from formicarium.studies.foraging_options import figure_options
 
 PERFORMANCE, ADAPTIVITY = "partitioning-performance", "partitioning-adaptivity"
 SCALABILITY, GIVING_UP, THRESHOLD = "partitioning-scalability", "partitioning-giving-up", "partitioning-threshold"
 PATIENT, ANOVA, OPTIONS = "partitioning-patient", "partitioning-anova", "partitioning-options"
+HIERARCHY = "partitioning-hierarchy"
 PERIODS = (10.0, 30.0)  # s, of the draws in the patient campaign
 OF_THE_READING = ("AC-9", "AC-10", "AC-11", "AC-12", "AC-14", "AC-17", "AC-18", "AC-19", "AC-20")
 ALL = (PERFORMANCE, ADAPTIVITY, SCALABILITY, GIVING_UP, THRESHOLD, PATIENT, ANOVA)
@@ -46,6 +48,7 @@ DESIGNS = {
     "giving-up": (GIVING_UP, THRESHOLD, PATIENT),
     "anova": (ANOVA,),
     "options": (OPTIONS,),
+    "hierarchy": (HIERARCHY,),
     "all": ALL,
 }
 FIGURES = {
@@ -57,6 +60,7 @@ FIGURES = {
     "giving-up": (figure_giving_up, GIVING_UP),
     "anova": (figure_anova, ANOVA),
     "options": (figure_options, OPTIONS),
+    "hierarchy": (figure_hierarchy, HIERARCHY),
 }
 
 
@@ -98,6 +102,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
         written += _write_anova(rows[ANOVA], folder)
     if rows.get(OPTIONS):
         written.append(_write_options(studies[OPTIONS], rows[OPTIONS], folder))
+    if rows.get(HIERARCHY):
+        written.append(_write("hierarchy", foraging_hierarchy.section(rows[HIERARCHY]), folder))
     if figure == "all":
         with replacing(folder / "report.md") as temporary:
             temporary.write_text(report(rows), encoding="utf-8")
@@ -118,10 +124,20 @@ def _write_options(study: Study, rows: list[Row], folder: Path) -> Path:
     def log(row: Row) -> np.ndarray:
         return events_of(table.read(ledger.table_path("events", keys[row["cell"], row["seed"]])), study.system.kinds)
 
-    path = folder / "options.md"
+    return _write("options", foraging_options.section(rows, log), folder)
+
+
+def _write(name: str, lines: list[str], folder: Path) -> Path:
+    """Write a block of Markdown into a file of its own; return the path."""
+    path = folder / f"{name}.md"
     with replacing(path) as temporary:
-        temporary.write_text("\n".join(foraging_options.section(rows, log)) + "\n", encoding="utf-8")
+        temporary.write_text("\n".join(_block(name, lines)) + "\n", encoding="utf-8")
     return path
+
+
+def _block(name: str, lines: list[str]) -> list[str]:
+    """Return lines with the marks by which ``docs/fill.py`` knows them."""
+    return [f"<!-- block: {name} -->", *lines, "<!-- end of block -->"]
 
 
 def draw_implementation(figure: str, folder: Path) -> Path:
@@ -137,24 +153,37 @@ def draw_implementation(figure: str, folder: Path) -> Path:
 
 
 def report(rows: dict[str, list[Row]]) -> str:
-    """Return in Markdown what the paper says, or what follows from it, and what our runs say."""
-    found = claims(Runs(*(rows.get(name, []) for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))
-    counts = ", ".join(f"{name} {len(r)} ({len(r) - len(consistent(r))} left out)" for name, r in rows.items())
-    lines = ["# Task partitioning: the acceptance statements", "", f"Runs: {counts}.", ""]
-    lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
-    lines += [f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found]
+    """Return in Markdown what the paper says, or what follows from it, and what our runs say.
+
+    In blocks, which ``docs/fill.py`` puts into the page of results.
+    """
+    of = {name: rows.get(name, []) for name in ALL}
+    blocks = {
+        "runs": foraging_tables.runs_of(dict(of)),
+        "objects per robot": foraging_tables.performance(of[PERFORMANCE]),
+        "statements": _statements(claims(Runs(*(of[name] for name in (PERFORMANCE, ADAPTIVITY, SCALABILITY, ANOVA))))),
+        "giving up": foraging_tables.giving_up(of[GIVING_UP], of[THRESHOLD]),
+    }
     for period in PERIODS:
-        chosen = [row for row in rows.get(PATIENT, []) if row["strategy.giveup_draw_period"] == period]
-        lines += ["", f"## With a draw of P_g every {period:g} s", ""]
-        lines += ["| | statement | ours | verdict |", "|---|---|---|---|"]
-        references = [row for row in rows.get(PERFORMANCE, []) if row["method"] != "adaptive"]
-        steady = [row for row in chosen if row["cache.switched_time"] == row["interfacing_time_s"]]
-        found = claims(Runs([*references, *steady], chosen))
-        lines += [
-            f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found if c.number in OF_THE_READING
-        ]
-    lines += foraging_anova.section(rows.get(ANOVA, []))
+        blocks[f"statements, draw every {period:g} s"] = _statements(claims_of_reading(of, period))
+    blocks |= {"sizes": foraging_tables.sizes(of[SCALABILITY]), "anova": foraging_anova.section(of[ANOVA])}
+    lines = ["# Task partitioning: what the runs say"]
+    for name, block in blocks.items():
+        lines += ["", *_block(name, block)]
     return "\n".join(lines) + "\n"
+
+
+def claims_of_reading(rows: dict[str, list[Row]], period: float) -> list[Claim]:
+    """Return the statements that patience can change, with the references and draws of P_g so long apart."""
+    chosen = picked(rows[PATIENT], strategy__giveup_draw_period=period)
+    references = [row for row in rows[PERFORMANCE] if row["method"] != "adaptive"]
+    steady = [row for row in chosen if row["cache.switched_time"] == row["interfacing_time_s"]]
+    return [claim for claim in claims(Runs([*references, *steady], chosen)) if claim.number in OF_THE_READING]
+
+
+def _statements(found: list[Claim]) -> list[str]:
+    lines = ["| | statement | ours | verdict |", "|---|---|---|---|"]
+    return lines + [f"| {c.number} | {c.statement} | {c.finding} | {c.verdict} |" for c in found]
 
 
 def _write_anova(rows: list[Row], folder: Path) -> list[Path]:

@@ -16,8 +16,8 @@ SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
 Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
 Figure = Literal[
     "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
-    "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions", "planning-range",
-    "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
+    "hierarchy", "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions",
+    "planning-range", "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
 ]  # fmt: skip
 
 
@@ -63,8 +63,8 @@ def study(
         scheduling (720 instances; needs the extra "scheduling").
     figure
         The paper's number of the figure: 2 to 7 (5 is 5A and 5B, 7 is 7A and 7B), S15, S17, S18,
-        S19 of sequencing; 3 to 11, giving-up, anova (Table 1) and options (beyond the paper, not
-        in all) of partitioning; 2 of connectivity, and aboard (not in all: on the messages of an
+        S19 of sequencing; 3 to 11, giving-up, anova (Table 1), options and hierarchy (beyond
+        the paper, not in all) of partitioning; 2 of connectivity, and aboard (not in all: on the messages of an
         eruption); 4, 5, table-1, arms, safe, drops, occlusion, laboratory, scale, tours,
         planning-range, and missions, fractal and network (not in all) of coverage; table-2-time,
         table-2-travel (with figures 7 and 8), paper-model (in HiGHS, one instance in ten),

@@ -31,6 +31,7 @@ DEPOT = np.dtype(
         ("sine", "f8"),
         ("place", "i8"),  # Place
         ("pair", "i8"),  # number of the cache pair, -1 for none
+        ("cache", "i8"),  # number of the cache: its interfacing times
         ("occupied", "i8"),  # as the light barriers have it
         ("visitor", "i8"),  # index of the robot inside, -1 if none
         ("since", "i8"),  # cycle at which the visit began
@@ -56,7 +57,8 @@ INTERFACING = np.dtype(
 def serve_depots(depots, pairs, lights, grips, bodies, interfacing, cycle, cycle_time):
     """Let every booth look for a robot, carry the cache's states on, and set all lights.
 
-    The interfacing time of a visit is the one in force when it begins, and counts from then (TP-45).
+    The interfacing time of a visit is the one in force when it begins, and counts from then (TP-45); ``interfacing``
+    has a row for each cache.
     """
     for b in range(len(depots)):
         depot = depots[b]
@@ -69,7 +71,7 @@ def serve_depots(depots, pairs, lights, grips, bodies, interfacing, cycle, cycle
             aware = depot.pair >= 0 and depot.blocked == 0
             if aware and came_in(pairs[depot.pair], depot.place == Place.CACHE_PICK):
                 depot.noticed = 1
-                seconds = interfacing_time(interfacing, depot.place, cycle)
+                seconds = interfacing_time(interfacing[depot.cache], depot.place, cycle)
                 grips[deepest].busy_until = cycle + 1 + max(1, int(seconds / cycle_time + 0.5))
         elif depot.occupied == 0 and was_occupied == 1:
             if depot.noticed == 1:

@@ -180,8 +180,7 @@ def _pairs(rows: Sequence[Row], time: float) -> dict[tuple[float, float], float]
 
 def section(rows: Sequence[Row]) -> list[str]:
     """Return the analyses as lines of Markdown."""
-    lines = ["", "## Analysis of variance (Table 1)", ""]
-    lines += ["Type II sums of squares, main effects and two-way interactions; p of ranks: the same on ranks.", ""]
+    lines = ["Type II sums of squares, main effects and two-way interactions; p of ranks: the same on ranks.", ""]
     try:
         found = analyses(rows)
     except ValueError as lacking:

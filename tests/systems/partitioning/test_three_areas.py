@@ -17,6 +17,7 @@ from formicarium.systems.partitioning.middle import dropped_in_middle
 from formicarium.systems.partitioning.parameters import partitioning_parameters
 from formicarium.systems.partitioning.setup import begin
 from formicarium.systems.partitioning.study import run_trial
+from formicarium.trial.record import OBJECT
 
 THREE = {"subtasks": 3}
 
@@ -54,13 +55,14 @@ def test_a_third_of_the_robots_begins_in_each_area():
 
 def test_who_gives_up_does_the_neighbouring_sub_task_as_well():
     memory, chart = records(MEMORY, 1)[0], records(CHART, 1)[0]
+    table = partitioning_parameters().strategy.record()[0]
     for subtasks, area, to_pick, expected in (
         (2, Area.SOURCE, False, Area.NEST), (2, Area.NEST, True, Area.SOURCE),
         (3, Area.SOURCE, False, Area.MIDDLE), (3, Area.MIDDLE, False, Area.NEST),
         (3, Area.NEST, True, Area.MIDDLE), (3, Area.MIDDLE, True, Area.SOURCE),
     ):  # fmt: skip
         chart.subtasks, memory.area = subtasks, area
-        assert next_area(memory, chart, to_pick) == expected
+        assert next_area(memory, table, chart, to_pick) == expected
 
 
 def test_the_middle_is_timed_from_drop_to_drop_and_a_way_out_of_it_measures_nothing():
@@ -102,6 +104,17 @@ def test_with_three_areas_objects_pass_both_caches_and_nobody_crosses_one():
     left, right = inner_left - 0.12, inner_right + 0.12  # the middle of each cache: who is in a booth is on its side
     for before, after in zip(side, state.world.bodies.x, strict=True):
         assert (before < left) == (after < left) and (before > right) == (after > right)
+
+
+def test_objects_of_both_caches_are_shown():
+    """A frame has a light for every booth and a place for an object of every pair, and so has the scene."""
+    parameters = partitioning_parameters(robots=6, arena=THREE, swarm={"time_cap": 5.0})
+    trial = run_trial(parameters, 110097, frames_every=5.0)
+    places = [polygon for polygon in trial.scene.polygons if polygon.colour == OBJECT]
+    assert len(places) == 6 and trial.frames.lit.shape[1] == 20 + 6
+    x = [place.points[:, 0].mean() for place in places]
+    left, _, right, _ = make_arena(parameters.arena).middle_area
+    assert max(x[:3]) < left and min(x[3:]) > right
 
 
 @pytest.mark.long

@@ -75,7 +75,7 @@ def test_the_loop_is_the_plain_sequence_of_its_phases(method):
         move(plain)
         bodies, cycle_time = plain.world.bodies, plain.world.settings[0].cycle_time
         parts = (plain.depots, plain.pairs, plain.lights, plain.grips)
-        serve_depots(*parts, bodies, plain.interfacing[0], clock.cycle, cycle_time)
+        serve_depots(*parts, bodies, plain.interfacing, clock.cycle, cycle_time)
         note(plain)
         clock.cycle += 1
     assert differences(plain, state) == []

@@ -31,6 +31,7 @@ class Arena(NamedTuple):
     booths: np.ndarray  # (B, 3): x, y (m) of each booth's middle and the direction into its bay (rad)
     places: tuple[int, ...]  # (B,) Place
     pairs: tuple[int, ...]  # (B,) number of the cache pair, -1 for none
+    caches: tuple[int, ...]  # (B,) number of the cache, 0 for none
     segments: np.recarray  # SEGMENT: walls, then booth k as group k + 1, then block and cache
     solids: tuple[np.ndarray, ...]  # outlines of the block and of the cache's column
     floor: np.recarray  # PATCH
@@ -74,6 +75,7 @@ def make_arena(table: ArenaTable) -> Arena:
         booths=np.array(booths),
         places=tuple(places),
         pairs=tuple(pairs),
+        caches=tuple(max(0, pair) // t.cache_pairs for pair in pairs),
         segments=segments,
         solids=(*(np.array(block) for block in blocks), *whole),
         floor=_floor(t),

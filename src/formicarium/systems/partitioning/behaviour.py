@@ -16,6 +16,7 @@ from formicarium.systems.partitioning.choices import (
     start_wait,
 )
 from formicarium.systems.partitioning.docking import ACKNOWLEDGED, LOST, begin_leaving, dock, leave, strayed
+from formicarium.systems.partitioning.hierarchy import turn_away
 from formicarium.systems.partitioning.memory import Area, Deed, Ground, Label, State, enter
 from formicarium.systems.partitioning.middle import (
     at_middle,
@@ -23,6 +24,7 @@ from formicarium.systems.partitioning.middle import (
     dropped_in_middle,
     leave_after_drop,
     leave_after_pick,
+    picked_in_middle,
     walk_on_in_middle,
 )
 from formicarium.systems.partitioning.navigation import (
@@ -87,7 +89,7 @@ def decide(reading, memory, command, table, strategy, chart, epuck):
         elif memory.state == State.WAIT_PICK:
             wait(reading, memory, command, table, strategy, chart, epuck, True)
         elif memory.state == State.ENTER_PICK:
-            enter_pick(reading, memory, command, table, epuck)
+            enter_pick(reading, memory, command, table, strategy, chart, epuck)
         elif memory.state == State.PICKING:
             picking(reading, memory, strategy, chart)
         elif memory.state == State.CORRIDOR_TO_SOURCE:
@@ -123,7 +125,7 @@ def wake(reading, memory, strategy, chart):
         memory.area = Area.NEST
         choose(reading, memory, strategy, chart)
         enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
-        memory.area = Area.NEST if memory.label == Label.CACHE else Area.SOURCE
+        memory.area = Area.NEST if memory.label == Label.CACHE else memory.far
     elif at_middle(memory):
         note_deed(memory, Deed.BEGAN, reading.cycle)
         begin_in_middle(reading, memory, strategy, chart)
@@ -165,7 +167,7 @@ def harvested(reading, memory, strategy, chart):
     note_deed(memory, Deed.HARVESTED, reading.cycle)
     choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_DROP if memory.label == Label.CACHE else State.CORRIDOR_TO_NEST, reading.cycle)
-    memory.area = Area.SOURCE if memory.label == Label.CACHE else Area.NEST
+    memory.area = Area.SOURCE if memory.label == Label.CACHE else memory.far
     begin_leaving(memory, reading.cycle, FORWARD)
 
 
@@ -241,12 +243,12 @@ def stored(reading, memory, strategy, chart):
     note_deed(memory, Deed.STORED, reading.cycle)
     choose(reading, memory, strategy, chart)
     enter(memory, State.TO_CACHE_PICK if memory.label == Label.CACHE else State.CORRIDOR_TO_SOURCE, reading.cycle)
-    memory.area = Area.NEST if memory.label == Label.CACHE else Area.SOURCE
+    memory.area = Area.NEST if memory.label == Label.CACHE else memory.far
     begin_leaving(memory, reading.cycle, BACK)
 
 
 @compiled
-def enter_pick(reading, memory, command, table, epuck):
+def enter_pick(reading, memory, command, table, strategy, chart, epuck):
     """Drive into a green booth of the cache; red there means that an object is picked up."""
     result = dock(reading, memory, command, table, epuck, Colour.GREEN)
     if result == ACKNOWLEDGED:
@@ -254,6 +256,8 @@ def enter_pick(reading, memory, command, table, epuck):
         memory.waiting = 0
         note_deed(memory, Deed.PICKED, reading.cycle)
         enter(memory, State.PICKING, reading.cycle)
+        if memory.area == Area.MIDDLE:
+            picked_in_middle(reading, memory, strategy, chart)
     elif result == LOST:
         enter(memory, State.WAIT_PICK if memory.waiting == 1 else State.TO_CACHE_PICK, reading.cycle)
 
@@ -328,8 +332,13 @@ def approach_cache(reading, memory, command, table, chart, epuck, to_pick):
 
 
 @compiled
-def next_area(memory, chart, to_pick):
-    """Return where who gives up does the neighbouring sub-task as well: one area on with the object, or one back."""
+def next_area(memory, strategy, chart, to_pick):
+    """Return where who gives up does the neighbouring sub-task as well: one area on with the object, or one back.
+
+    With a tree of tasks, the part that is left decides (TP-O2).
+    """
+    if strategy.hierarchical == 1:
+        return turn_away(memory, strategy)
     if chart.subtasks == 3 and memory.area != Area.MIDDLE:
         return Area.MIDDLE
     return Area.SOURCE if to_pick else Area.NEST
@@ -356,7 +365,7 @@ def wait(reading, memory, command, table, strategy, chart, epuck, to_pick):
         enter_cache(reading, memory, command, table, epuck, to_pick)
     elif gives_up(reading, memory, strategy, chart, to_pick):
         enter(memory, State.CORRIDOR_TO_SOURCE if to_pick else State.CORRIDOR_TO_NEST, reading.cycle)
-        memory.area = next_area(memory, chart, to_pick)
+        memory.area = next_area(memory, strategy, chart, to_pick)
     elif memory.ground == zone_of(memory, to_pick):
         heading = BACK if to_pick else FORWARD
         look_about(reading, memory, command, table, epuck, heading, 0.5 * table.speed)

@@ -2,6 +2,13 @@
 
 from formicarium.compiled import compiled
 from formicarium.streams import advanced, uniform
+from formicarium.systems.partitioning.hierarchy import (
+    choose_in_tree,
+    cost_of_first,
+    cost_of_second,
+    renew_way,
+    way_of,
+)
 from formicarium.systems.partitioning.memory import NEVER, Area, Deed, Estimate, Label
 from formicarium.systems.partitioning.parameters import METHODS
 from formicarium.systems.partitioning.strategy import (
@@ -18,8 +25,22 @@ ALWAYS_PARTITION = METHODS.index("always")
 
 @compiled
 def choose(reading, memory, strategy, chart):
-    """Decide between cache and corridor with P_p, equation 1; start the timer."""
+    """Decide between cache and corridor; start the timer."""
+    if strategy.hierarchical == 1:
+        choose_in_tree(memory, strategy)
+    else:
+        choose_cache(reading, memory, strategy, chart)
+    memory.timer = reading.cycle
+    memory.set_out = memory.area
+    memory.waiting = 0
+    memory.wait_began = NEVER
+
+
+@compiled
+def choose_cache(reading, memory, strategy, chart):
+    """Decide with P_p, equation 1; the corridor leads to the other end."""
     memory.choices = advanced(memory.choices)
+    memory.far = Area.NEST if memory.loaded == 1 else Area.SOURCE
     if strategy.method == NEVER_PARTITION:
         memory.probability = 0.0
     elif strategy.method == ALWAYS_PARTITION:
@@ -34,10 +55,6 @@ def choose(reading, memory, strategy, chart):
         )
         explore(reading, memory, strategy, chart)
     memory.label = Label.CACHE if uniform(memory.choices) < memory.probability else Label.CORRIDOR
-    memory.timer = reading.cycle
-    memory.set_out = memory.area
-    memory.waiting = 0
-    memory.wait_began = NEVER
 
 
 @compiled
@@ -84,6 +101,8 @@ def close_timer(reading, memory, strategy, chart, at_nest):
     if memory.timer == NEVER:
         return
     seconds = (reading.cycle - memory.timer) * chart.cycle_time
+    if strategy.hierarchical == 1 and close_way(reading, memory, strategy, seconds):
+        return
     if memory.label == Label.CORRIDOR and memory.set_out == Area.MIDDLE:
         return  # neither a crossing nor a sub-task
     if memory.label == Label.CORRIDOR:
@@ -103,6 +122,19 @@ def close_timer(reading, memory, strategy, chart, at_nest):
         note_measurement(reading, memory, Estimate.HARVEST)
         memory.measured = seconds
         memory.harvest = renewed(memory.harvest, seconds, strategy.alpha)
+
+
+@compiled
+def close_way(reading, memory, strategy, seconds):
+    """Renew the time of a way in a tree of tasks; tell whether the trip just ended was one (TP-O2)."""
+    way = way_of(memory, memory.area, memory.loaded == 1)  # who has an object in the middle has just picked it up
+    if way < 0:
+        return False
+    if memory.label != Label.GAVE_UP:
+        note_measurement(reading, memory, Estimate.WAY)
+        memory.measured = seconds
+        renew_way(memory, strategy, way, seconds)
+    return True
 
 
 @compiled
@@ -128,12 +160,8 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     waited = (reading.cycle - memory.wait_began) * chart.cycle_time
     if strategy.method == ALWAYS_PARTITION:
         return False
-    own = memory.store if to_pick else memory.harvest
-    if memory.area == Area.MIDDLE:
-        own = memory.middle
-    probability = giving_up_probability(
-        waited, own, memory.harvest, memory.store + memory.middle, strategy.giveup_steepness, strategy.giveup_offset
-    )
+    own, parts = awaited(memory, strategy, to_pick)
+    probability = giving_up_probability(waited, own, parts, 0.0, strategy.giveup_steepness, strategy.giveup_offset)
     if strategy.threshold == 1:
         leaves = probability >= memory.limit
     else:
@@ -149,21 +177,46 @@ def gives_up(reading, memory, strategy, chart, to_pick):
     memory.updated = Estimate.NONE
     memory.measured = waited
     if waited > own:
-        estimate = Estimate.STORE if to_pick else Estimate.HARVEST
-        if memory.area == Area.MIDDLE:
-            estimate = Estimate.MIDDLE
-        note_measurement(reading, memory, estimate)
-        if memory.area == Area.MIDDLE:
-            memory.middle = renewed(own, waited, strategy.alpha)
-        elif to_pick:
-            memory.store = renewed(own, waited, strategy.alpha)
-        else:
-            memory.harvest = renewed(own, waited, strategy.alpha)
+        renew_awaited(reading, memory, strategy, to_pick, waited)
     memory.probability = probability
     memory.label = Label.GAVE_UP
     memory.waiting = 0
     note_deed(memory, Deed.GAVE_UP, reading.cycle)
     return True
+
+
+@compiled
+def awaited(memory, strategy, to_pick):
+    """Return one's time (s) for what one waits to go on with, and that of all the parts of the whole task."""
+    if strategy.hierarchical == 1:
+        at_first = (memory.area == Area.MIDDLE) == to_pick
+        parts = cost_of_first(memory, strategy) if at_first else cost_of_second(memory, strategy)
+    else:
+        parts = memory.harvest + (memory.store + memory.middle)
+    if memory.area == Area.MIDDLE and strategy.hierarchical == 1:
+        own = memory.ways[way_of(memory, Area.MIDDLE, to_pick)]
+    elif memory.area == Area.MIDDLE:
+        own = memory.middle
+    else:
+        own = memory.store if to_pick else memory.harvest
+    return own, parts
+
+
+@compiled
+def renew_awaited(reading, memory, strategy, to_pick, waited):
+    """Renew the time that the wait has exceeded."""
+    if memory.area == Area.MIDDLE and strategy.hierarchical == 1:
+        note_measurement(reading, memory, Estimate.WAY)
+        renew_way(memory, strategy, way_of(memory, Area.MIDDLE, to_pick), waited)
+    elif memory.area == Area.MIDDLE:
+        note_measurement(reading, memory, Estimate.MIDDLE)
+        memory.middle = renewed(memory.middle, waited, strategy.alpha)
+    elif to_pick:
+        note_measurement(reading, memory, Estimate.STORE)
+        memory.store = renewed(memory.store, waited, strategy.alpha)
+    else:
+        note_measurement(reading, memory, Estimate.HARVEST)
+        memory.harvest = renewed(memory.harvest, waited, strategy.alpha)
 
 
 @compiled

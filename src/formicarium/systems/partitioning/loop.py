@@ -45,7 +45,7 @@ def run(state, cycles):
             state.lights,
             state.grips,
             state.world.bodies,
-            state.interfacing[0],
+            state.interfacing,
             clock.cycle,
             state.world.settings[0].cycle_time,
         )

@@ -31,6 +31,7 @@ class EventKind(IntEnum):
     ROLE = 13  # value: new Role; detail: old one
     ESTIMATES = 14  # on request, with each decision; subject: of harvesting, value: of storing, detail: of the whole
     PASSED_ON = 15  # dropped between two caches; subject: Label chosen; value: time measured; detail: Estimate
+    TAKEN_ON = 16  # picked up between two caches by a robot with a tree of tasks; the same
 
 
 class Role(IntEnum):
@@ -143,9 +144,10 @@ def note_hand_over(state, i):
     who = state.robots[i].identity
     clock = state.clock[0]
     waited = clock.cycle - memory.wait_began if memory.wait_began >= 0 else 0
-    if dropped and memory.set_out == Area.MIDDLE and memory.timer == clock.cycle:
+    if memory.set_out == Area.MIDDLE and memory.timer == clock.cycle:
         measured = int(memory.measured / state.chart[0].cycle_time + 0.5)
-        write_event(clock, state.events, EventKind.PASSED_ON, who, memory.label, measured, memory.updated)
+        decided = EventKind.PASSED_ON if dropped else EventKind.TAKEN_ON
+        write_event(clock, state.events, decided, who, memory.label, measured, memory.updated)
     if pair < 0:
         write_event(clock, state.events, EventKind.UNFOUNDED, who, memory.deed, 0, 0)
     kind = EventKind.DROPPED if dropped else EventKind.PICKED
@@ -153,6 +155,23 @@ def note_hand_over(state, i):
 
 
 HOUR = 3600.0  # s, window of Fig. 10
+
+
+def of_two_caches(events: np.ndarray, pairs: int, stored: int) -> dict[str, float]:
+    """Return for each of two caches how often it is chosen beside it, and objects given out for every one stored.
+
+    Beside the first cache robots decide after a harvest and, in the middle, without an object; beside the second after
+    a store and, in the middle, with one.
+    """
+    kinds, row = events["kind"], {}
+    beside = {"first": (EventKind.HARVESTED, EventKind.PASSED_ON), "second": (EventKind.STORED, EventKind.TAKEN_ON)}
+    for name, deciding in beside.items():
+        decided = events[np.isin(kinds, deciding)]["subject"]
+        row[f"chosen_{name}"] = int((decided == Label.CACHE).sum()) / max(1, len(decided))
+    picked = events[kinds == EventKind.PICKED]["subject"]
+    row["over_first"] = int(((picked >= 0) & (picked < pairs)).sum()) / stored
+    row["over_second"] = int((picked >= pairs).sum()) / stored
+    return row
 
 
 def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | None]:
@@ -172,7 +191,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
     stored = number_of(EventKind.STORED)
     used = events[np.isin(kinds, (EventKind.DROPPED, EventKind.PICKED))]
     gave_up = events[kinds == EventKind.GAVE_UP]
-    deciding = (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN, EventKind.PASSED_ON)
+    deciding = (EventKind.HARVESTED, EventKind.STORED, EventKind.BEGAN, EventKind.PASSED_ON, EventKind.TAKEN_ON)
     decided = events[np.isin(kinds, deciding)]
     corridor = decided[decided["subject"] == Label.CORRIDOR]
     actions = max(1, len(used) + len(gave_up) + len(corridor))
@@ -191,6 +210,7 @@ def outcome(state: Any, events: np.ndarray) -> dict[str, int | float | str | Non
         row[f"{name}_by_hour"] = " ".join(map(str, np.bincount(windows, minlength=int(-(-duration // HOUR)))))
     row |= measured_times(events, cycle_time)
     if state.chart[0].subtasks == 3:
+        row |= of_two_caches(events, len(state.pairs) // 2, max(1, stored))
         passed = events[(kinds == EventKind.PASSED_ON) & (events["detail"] == Estimate.MIDDLE)]["value"] * cycle_time
         row |= {"middle_measured": len(passed), "middle_mean_s": float(passed.mean()) if len(passed) else None}
     waits = np.concatenate([used["value"][used["value"] > 0], gave_up["value"]]) * cycle_time

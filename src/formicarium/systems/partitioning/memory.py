@@ -63,6 +63,17 @@ class Area(IntEnum):
     NEST = 2
 
 
+class Way(IntEnum):
+    """Trips with an end at a cache of the middle area, each timed on its own by a tree of tasks (TP-O2)."""
+
+    SOURCE_TO_SECOND = 0  # with an object past the first cache
+    SECOND_TO_SOURCE = 1
+    FIRST_TO_NEST = 2  # with an object past the second cache
+    NEST_TO_FIRST = 3
+    FIRST_TO_SECOND = 4
+    SECOND_TO_FIRST = 5
+
+
 class Estimate(IntEnum):
     """The three times a robot estimates, and which it has just updated."""
 
@@ -71,6 +82,7 @@ class Estimate(IntEnum):
     STORE = 2  # phi_2
     WHOLE = 3  # t_NP
     MIDDLE = 4  # phi_2 of three
+    WAY = 5  # with a tree of tasks only: a Way
 
 
 class Deed(IntEnum):
@@ -100,7 +112,9 @@ MEMORY = np.dtype(
         ("middle", "f8"),  # s, and of the sub-task between two caches, 0 if there is none
         ("area", "i8"),  # Area in which it works or to which it is on its way
         ("set_out", "i8"),  # Area in which it decided last
-        ("measured_at", "i8", 5),  # cycle of each Estimate's last measurement of its own, NEVER if none
+        ("far", "i8"),  # Area to which the corridor leads it if it does not take the cache
+        ("ways", "f8", len(Way)),  # s, of each Way, 0 without a tree of tasks
+        ("measured_at", "i8", len(Estimate)),  # cycle of each Estimate's last measurement of its own, NEVER if none
         ("stay", "f8"),  # s, its stays in cache booths, averaged like an estimate; negative: none yet
         ("timer", "i8"),  # cycle of the last harvest or store, NEVER if none
         ("label", "i8"),

@@ -34,6 +34,14 @@ def dropped_in_middle(reading, memory, strategy, chart):
 
 
 @compiled
+def picked_in_middle(reading, memory, strategy, chart):
+    """Decide where to take the object, with a tree of tasks (TP-O2); without one it goes to the second cache."""
+    if strategy.hierarchical == 1:
+        close_timer(reading, memory, strategy, chart, False)
+        choose(reading, memory, strategy, chart)
+
+
+@compiled
 def leave_after_drop(reading, memory):
     """Come out of the second cache's booth and go where it was decided."""
     go_and_fetch(reading, memory)
@@ -51,8 +59,12 @@ def go_and_fetch(reading, memory):
 
 @compiled
 def leave_after_pick(reading, memory):
-    """Come out of the first cache's booth and carry the object to the second."""
-    enter(memory, State.TO_CACHE_DROP, reading.cycle)
+    """Come out of the first cache's booth and carry the object to the second, or where it was decided."""
+    if memory.label == Label.CORRIDOR:  # with a tree of tasks only
+        enter(memory, State.CORRIDOR_TO_NEST, reading.cycle)
+        memory.area = Area.NEST
+    else:
+        enter(memory, State.TO_CACHE_DROP, reading.cycle)
 
 
 @compiled

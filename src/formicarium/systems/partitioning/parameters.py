@@ -95,6 +95,13 @@ class CacheTable(Table):
     taking_extra: float = number(
         0.0, "s", "Pi_2 - Pi_1: picking up takes so much longer [paper: 0]", ge=-10000, le=10000
     )
+    second_extra: float = number(
+        0.0,
+        "s",
+        "the second cache takes so much longer than the first, with arena.subtasks 3 [TP-O2]",
+        ge=-10000,
+        le=10000,
+    )
     switch_time: float = number(
         -1.0, "s", "from here on switched_time holds; negative: never; paper: half of the run", ge=-1
     )
@@ -102,12 +109,15 @@ class CacheTable(Table):
 
     @model_validator(mode="after")
     def no_time_runs_backwards(self) -> "CacheTable":
-        """Refuse a negative Pi_2."""
-        if (
-            min(self.interfacing_time, self.switched_time if self.switch_time >= 0 else math.inf) + self.taking_extra
-            < 0
-        ):
+        """Refuse times that the extra ones make negative."""
+        least = min(self.interfacing_time, self.switched_time if self.switch_time >= 0 else math.inf)
+        if least + self.taking_extra < 0:
             raise ValueError("taking_extra makes the time of picking up negative")
+        if least + self.second_extra + min(0.0, self.taking_extra) < 0:
+            raise ValueError(
+                f"second_extra {self.second_extra:g} makes a time of the second cache negative: "
+                f"at least {-least - min(0.0, self.taking_extra):g}"
+            )
         return self
 
 
@@ -152,6 +162,9 @@ class StrategyTable(Table):
         0.0, "s", "a time measured longer ago makes a robot try the way that measures it; 0: never [TP-O5]", ge=0
     )
     exploration_share: float = number(0.2, "1", "with at least this probability [choice]", ge=0, le=0.5)
+    hierarchical: bool = number(
+        False, "1", "every task of a tree decides on its own whether to be cut; needs arena.subtasks 3 [TP-O2]"
+    )
 
     @classmethod
     def layout(cls) -> np.dtype:
@@ -164,6 +177,14 @@ class StrategyTable(Table):
         record[0].method = METHODS.index(self.method)
         record[0].threshold = MODES.index(self.giveup_mode)
         return record
+
+    @model_validator(mode="after")
+    def a_tree_keeps_to_itself(self) -> "StrategyTable":
+        """Refuse options that know nothing of the times of a tree of tasks."""
+        for name in ("social_weight", "exploration_age"):
+            if self.hierarchical and getattr(self, name) > 0:
+                raise ValueError(f"hierarchical does not go together with {name} {getattr(self, name):g}: set one to 0")
+        return self
 
 
 class BehaviourTable(Table):
@@ -234,6 +255,14 @@ class PartitioningParameters(BaseModel):
     behaviour: BehaviourTable = Field(default_factory=BehaviourTable)
     epuck: Epuck = Field(default_factory=lambda: Epuck.model_validate(PINI_2011))
     sight: EpuckSight = Field(default_factory=EpuckSight)
+
+    @model_validator(mode="after")
+    def a_second_cache_stands(self) -> "PartitioningParameters":
+        """Refuse what is said of a second cache where there is none."""
+        if self.arena.subtasks == 2 and (self.strategy.hierarchical or self.cache.second_extra != 0):
+            name = "strategy.hierarchical" if self.strategy.hierarchical else "cache.second_extra"
+            raise ValueError(f"{name} needs two caches: set arena.subtasks to 3, or leave it off")
+        return self
 
 
 # The interfacing times of Fig. 7, s: setting k is the k-th.

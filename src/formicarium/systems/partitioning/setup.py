@@ -171,6 +171,8 @@ def make_memories(robots: np.recarray, p: PartitioningParameters, seed: int) -> 
         memory.store = low + span * uniform(stream(seed, "estimate of storing", key))
         if p.arena.subtasks == 3:
             memory.middle = low + span * uniform(stream(seed, "estimate of the middle", key))
+        if p.strategy.hierarchical:
+            memory.ways[:] = first_ways(memory.middle, low, span, seed, key)
         memory.whole = 2.0 * (low + span * uniform(stream(seed, "estimate of the whole", key)))
         memory.look_side = 1.0
         memory.ground = -1
@@ -181,6 +183,16 @@ def make_memories(robots: np.recarray, p: PartitioningParameters, seed: int) -> 
     return memories
 
 
+def first_ways(middle: float, low: float, span: float, seed: int, key: int) -> list[float]:
+    """Return the first guesses (s) of the ways of a tree of tasks, there and back alike.
+
+    Between the caches half of a sub-task's; past one cache, which is two sub-tasks, half of twice as much.
+    """
+    past_first = low + span * uniform(stream(seed, "estimate of the first two", key))
+    past_second = low + span * uniform(stream(seed, "estimate of the last two", key))
+    return [past_first, past_first, past_second, past_second, 0.5 * middle, 0.5 * middle]
+
+
 def make_depots(arena: Arena) -> tuple[np.recarray, np.recarray]:
     """Return the booths and their lights, at the bottom of their bays."""
     depots = records(DEPOT, len(arena.booths))
@@ -189,6 +201,7 @@ def make_depots(arena: Arena) -> tuple[np.recarray, np.recarray]:
         depot, light = depots[k], lights[k]
         depot.x, depot.y, depot.cosine, depot.sine = x, y, math.cos(way), math.sin(way)
         depot.place, depot.pair, depot.visitor = arena.places[k], arena.pairs[k], -1
+        depot.cache = arena.caches[k]
         light.x, light.y = placed(x, y, way, BAY_END - LIGHT_OFF_WALL, 0.0)
         light.cosine, light.sine, light.key = depot.cosine, depot.sine, k
         light.depth, light.half_width = BAY_END - LIGHT_OFF_WALL + HALF, BAY_HALF_WIDTH
@@ -197,13 +210,16 @@ def make_depots(arena: Arena) -> tuple[np.recarray, np.recarray]:
 
 
 def make_interfacing(p: PartitioningParameters) -> np.recarray:
-    """Return the interfacing times of both sides, before and after the switch."""
-    record = records(INTERFACING, 1)
-    first, extra = record[0], p.cache.taking_extra
-    first.give_time, first.take_time = p.cache.interfacing_time, p.cache.interfacing_time + extra
-    first.switch_cycle = round(p.cache.switch_time / p.swarm.cycle_time) if p.cache.switch_time >= 0 else -1
-    first.switched_give_time, first.switched_take_time = p.cache.switched_time, p.cache.switched_time + extra
-    return record
+    """Return the interfacing times of each cache, of both sides, before and after the switch."""
+    caches, extra = records(INTERFACING, p.arena.subtasks - 1), p.cache.taking_extra
+    for number, cache in enumerate(caches):
+        before, after = (
+            time + number * p.cache.second_extra for time in (p.cache.interfacing_time, p.cache.switched_time)
+        )
+        cache.give_time, cache.take_time = before, before + extra
+        cache.switch_cycle = round(p.cache.switch_time / p.swarm.cycle_time) if p.cache.switch_time >= 0 else -1
+        cache.switched_give_time, cache.switched_take_time = after, after + extra
+    return caches
 
 
 def make_chart(p: PartitioningParameters, arena: Arena) -> np.recarray:

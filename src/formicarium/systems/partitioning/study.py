@@ -44,7 +44,7 @@ def scene_of(parameters: PartitioningParameters, state: PartitioningState) -> Sc
     for k, place in enumerate(arena.places):
         own = arena.segments[arena.segments.group == k + 1]
         polygons.append(Polygon(np.stack([own.ax, own.ay], axis=1), SHOWN[place]))
-    for k in range(parameters.arena.cache_pairs):
+    for k in range(len(state.pairs)):
         sides = np.array([booth[:2] for booth, pair in zip(arena.booths, arena.pairs) if pair == k])
         polygons.append(Polygon(sides.mean(axis=0) + HALF_OBJECT * SQUARE, OBJECT))
     ranges = (("camera", parameters.sight.range),)

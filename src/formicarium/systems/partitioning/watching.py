@@ -184,6 +184,8 @@ def tell(event: Any) -> str:
             return f"{who} decides with probability {value / 1e6:.3f}"
         case EventKind.PASSED_ON:
             return f"{who} has passed an object on, {TRIPS[Label(subject)]}"
+        case EventKind.TAKEN_ON:
+            return f"{who} has taken an object over, {TRIPS[Label(subject)]}"
         case EventKind.ESTIMATES:
             return f"{who} reckons {subject}, {value} and {detail} cycles to harvest, to store and for the whole"
         case _:
