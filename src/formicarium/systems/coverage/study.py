@@ -7,6 +7,7 @@ import numpy as np
 from formicarium.observers.graphs import Graph
 from formicarium.systems.coverage.loop import run
 from formicarium.systems.coverage.measures import EventKind, Role
+from formicarium.systems.coverage.onboard import ONBOARD
 from formicarium.systems.coverage.parameters import CoverageParameters, coverage_parameters
 from formicarium.systems.coverage.setup import begin
 from formicarium.systems.coverage.watching import (
@@ -98,4 +99,5 @@ COVERAGE = System(
     advance=run,
     roles=frame_roles,
     watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row, blockable=False),
+    onboard=ONBOARD,
 )
