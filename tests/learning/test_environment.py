@@ -9,6 +9,7 @@ import pytest
 import formicarium
 from formicarium.commands.errors import UserError
 from formicarium.commands.laying_out import lay_out
+from formicarium.robots.footbot import READING as FOOTBOT_READING
 from formicarium.robots.records import SILENCE
 from formicarium.systems.registry import names, resolve
 from formicarium.trial.simulate import drain
@@ -18,6 +19,7 @@ from gymnasium.spaces import flatten, unflatten
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from formicarium.learning.environment import SwarmEnvironment
+from formicarium.learning.spaces import blanked
 
 OPEN = [name for name in names() if resolve(name).onboard is not None]
 OWN = "learners"
@@ -132,16 +134,24 @@ def test_a_goal_ends_a_trial_and_the_time_cap_cuts_it_off(folder):
 
 
 def test_a_message_of_many_parts_is_observed_and_stays_the_behaviours():
-    """Word of arms travels from the master, though the learner decides every speed and light."""
+    """Word of the phase goes from robot to robot, though the learner decides every speed and light."""
     env = made("coverage", robots=3, seconds=6.0)
     assert set(env.action_space("robot_2")) == {"ahead", "aside", "left", "right", "colour", "enabled"}
     speak = {name: np.zeros(box.shape, box.dtype) for name, box in env.action_space("robot_1").items()}
     speak["enabled"][:] = 1
     *_, (observations, *_) = played(env, 1, lambda env: dict.fromkeys(env.agents, speak))
     heard = observations["robot_2"]
-    assert heard["packets.arms.direction"].shape == (128, 6) and heard["packet_count"][0] >= 1
-    assert heard["packets.arm_count"][0] > 0 and not heard["packets.arms.weight"][int(heard["packet_count"][0]) :].any()
-    assert not heard["packets.arms.weight"][0, int(heard["packets.arm_count"][0]) :].any()
+    assert heard["packets.arms.direction"].shape == (128, 6)
+    assert heard["packet_count"][0] == 2 and (heard["packets.epoch"][:2] >= 1).all()
+
+
+def test_lists_in_lists_hold_zeros_beyond_their_counts():
+    readings = np.zeros(1, FOOTBOT_READING)
+    readings["packet_count"], readings["packets"]["arm"] = 2, 1
+    readings["packets"]["arm_count"], readings["packets"]["arms"]["task"] = 3, 5
+    found = blanked(readings)["packets"][0]
+    assert (found["arms"]["task"][:2, :3] == 5).all() and not found["arms"]["task"][:2, 3:].any()
+    assert (found["arm"][:2] == 1).all() and not found["arm"][2:].any() and not found["arms"]["task"][2:].any()
 
 
 def test_who_dies_is_gone_and_the_others_go_on():

@@ -93,7 +93,7 @@ def _blank(records: np.ndarray) -> None:
     fields = records.dtype.names or ()
     for name in fields:
         count = f"{name.removesuffix('s')}_count"
-        if count in fields:
+        if name.endswith("s") and count in fields:
             beyond = np.arange(records[name].shape[-1]) >= records[count][..., None]
             records[name][beyond] = np.zeros((), records.dtype[name].base)
         _blank(records[name])
