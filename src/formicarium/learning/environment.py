@@ -189,4 +189,4 @@ def _function(place: str) -> Callable[..., None]:
 def _speed_limit(tables: Sequence[np.ndarray]) -> float:
     """Return the speed, m/s, that the robots' wheels are said to reach in what they are told; infinite if none is."""
     told = [table for table in map(np.asarray, tables) if "speed_limit" in (table.dtype.names or ())]
-    return float(told[0]["speed_limit"][0]) if told else float("inf")
+    return float(told[0]["speed_limit"].max()) if told else float("inf")
