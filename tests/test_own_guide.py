@@ -56,6 +56,8 @@ def test_the_guide_to_a_swarm_of_ones_own_is_true(tmp_path):
     assert len(written) < 80 + len(own_lines(blocks_of(blocks, "room.toml")))  # the room is written twice to show how
     rows = pq.read_table(folder / "formicarium-results" / "weights" / "runs.parquet")
     assert rows.num_rows == 24 and max(rows["resting"].to_pylist()) > 8
+    tested = subprocess.run([sys.executable, "-m", "pytest", "-q", "-k", "lamp"], cwd=folder, check=False)
+    assert tested.returncode == 0
     for name in ("weights.png", "room.html"):
         assert (folder / name).stat().st_size > 10_000
 

@@ -9,6 +9,7 @@ import pytest
 import formicarium
 from formicarium.commands.errors import UserError
 from formicarium.commands.laying_out import lay_out
+from formicarium.robots.footbot import READING as FOOTBOT_READING
 from formicarium.robots.records import SILENCE
 from formicarium.systems.registry import names, resolve
 from formicarium.trial.simulate import drain
@@ -18,6 +19,7 @@ from gymnasium.spaces import flatten, unflatten
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from formicarium.learning.environment import SwarmEnvironment
+from formicarium.learning.spaces import blanked
 
 OPEN = [name for name in names() if resolve(name).onboard is not None]
 OWN = "learners"
@@ -94,8 +96,13 @@ def test_what_is_observed_is_the_reading_and_lies_in_its_space(name, folder):
     assert kept == {agent: bytes_of(observation) for agent, observation in observations.items()}
 
 
-@pytest.mark.parametrize("act", [("left", "right"), None])
-@pytest.mark.parametrize("name", ["mark-i3", OWN])
+WHEELS = ("left", "right")
+
+
+@pytest.mark.parametrize(
+    ("name", "act"),
+    [*((name, act) for name in ("mark-i3", OWN, "coverage") for act in (WHEELS, None)), ("partitioning", None)],
+)
 def test_who_does_what_the_behaviour_would_gets_the_trial_of_the_simulator(name, act, folder):
     """With the wheels alone left to the learner, roles, memories and events are the same too."""
     system, events = resolve(name), []
@@ -104,7 +111,7 @@ def test_who_does_what_the_behaviour_would_gets_the_trial_of_the_simulator(name,
 
     def same(env):
         system.advance(state, 1)
-        fields = act or state.commands.dtype.names
+        fields = env.action_space("robot_1").keys()
         return {
             agent: {field: np.atleast_1d(np.asarray(state.commands[field])[i]) for field in fields}
             for i, agent in enumerate(env.possible_agents)
@@ -124,6 +131,27 @@ def test_a_goal_ends_a_trial_and_the_time_cap_cuts_it_off(folder):
     *_, (_, _, ended, late, _) = played(env, 2, lambda env: {agent: {"infrared": [SILENCE]} for agent in env.agents})
     assert all(ended.values()) and not any(late.values()) and env.agents == []
     assert env.swarm.clock[0].cycle < env.swarm.clock[0].last_cycle
+
+
+def test_a_message_of_many_parts_is_observed_and_stays_the_behaviours():
+    """Word of the phase goes from robot to robot, though the learner decides every speed and light."""
+    env = made("coverage", robots=3, seconds=6.0)
+    assert set(env.action_space("robot_2")) == {"ahead", "aside", "left", "right", "colour", "enabled"}
+    speak = {name: np.zeros(box.shape, box.dtype) for name, box in env.action_space("robot_1").items()}
+    speak["enabled"][:] = 1
+    *_, (observations, *_) = played(env, 1, lambda env: dict.fromkeys(env.agents, speak))
+    heard = observations["robot_2"]
+    assert heard["packets.arms.direction"].shape == (128, 6)
+    assert heard["packet_count"][0] == 2 and (heard["packets.epoch"][:2] >= 1).all()
+
+
+def test_lists_in_lists_hold_zeros_beyond_their_counts():
+    readings = np.zeros(1, FOOTBOT_READING)
+    readings["packet_count"], readings["packets"]["arm"] = 2, 1
+    readings["packets"]["arm_count"], readings["packets"]["arms"]["task"] = 3, 5
+    found = blanked(readings)["packets"][0]
+    assert (found["arms"]["task"][:2, :3] == 5).all() and not found["arms"]["task"][:2, 3:].any()
+    assert (found["arm"][:2] == 1).all() and not found["arm"][2:].any() and not found["arms"]["task"][2:].any()
 
 
 def test_who_dies_is_gone_and_the_others_go_on():
@@ -208,9 +236,13 @@ def test_a_reward_that_is_none_is_named(reward):
 
 
 def test_what_cannot_be_is_told(monkeypatch):
-    for name in set(names()) - {*OPEN, OWN}:
-        with pytest.raises(UserError, match=f"{name} does not say where its robots decide"):
-            formicarium.parallel_env(name)
+    with pytest.raises(UserError, match=r"mark-i3\+kill:1@5 does not say where its robots decide"):
+        formicarium.parallel_env("mark-i3+kill:1@5")
+    talking = formicarium.parameters("partitioning", robots=2, changes={"social_weight": 0.5})
+    with pytest.raises(UserError, match=r"strategy\.social_weight: must be 0"):
+        formicarium.parallel_env("partitioning", parameters=talking)
+    with pytest.raises(UserError, match=r"act = \['message'\]: there is no field 'message'; choose from ahead, aside"):
+        formicarium.parallel_env("coverage", act=["message"])
     with pytest.raises(UserError, match=r"observe = \['place'\]: there is no field 'place'; choose from identity"):
         formicarium.parallel_env("mark-i3", observe=["place"])
     with pytest.raises(UserError, match=r"act = \[\]: it is empty; choose from left, right"):

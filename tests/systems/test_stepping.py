@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from formicarium.commands.laying_out import lay_out
-from formicarium.systems.diagnosis import lines_of
+from formicarium.systems.diagnosis import lines_of, way_out
 
 PROGRAM = """
 import sys
@@ -69,3 +69,9 @@ def test_a_message_of_the_compiler_is_told_by_its_lines_in_the_readers_files(tmp
     )
     text = lines_of(message)
     assert f"{file}, line 48" in text and "No implementation of function dict" in text and "site-packages" not in text
+
+
+def test_the_way_out_is_the_command_that_stops_there():
+    said = way_out("my-swarm", 7, "cycle 33, robot 232 never ends its decision:\n  behaviour.py, line 4")
+    assert "formicarium debug my-swarm --seed 7 --cycle 33 --robot 232 " in said
+    assert way_out("my-swarm", 7, "cycle 33:\n  loop.py, line 4") == ""

@@ -1,7 +1,5 @@
 """Controllers in processes of their own: the same events byte for byte, and a trial that outlives any of them."""
 
-import sys
-
 import numpy as np
 import pytest
 
@@ -11,27 +9,7 @@ from formicarium.robots.records import SILENCE
 from formicarium.systems.registry import resolve
 from formicarium.trial.onboard import Controllers, described, layout_of
 from formicarium.trial.simulate import drain
-
-BAD = """
-import os, sys, time
-import formicarium.trial.onboard as onboard
-from formicarium.trial.controller import main
-usual, answers = onboard.send, []
-def send(line, content):
-    answers.append(content)
-    if len(answers) == 6:  # the identity is the first
-        {deed}
-    usual(line, content)
-import formicarium.trial.controller as controller
-controller.send = send
-main(int(sys.argv[1]), int(sys.argv[2]))
-"""
-DEEDS = {
-    "dies": "os._exit(3)",
-    "hangs": "time.sleep(60)",
-    "babbles": "content = b'hello'",
-    "raves": "content = b'\\xff' * len(content)",
-}
+from trial.misdeeds import DEEDS, commands_of
 
 
 def events_of(state, onboard, cycles, **options):
@@ -87,12 +65,7 @@ def test_a_controller_that_dies_hangs_or_babbles_is_named_and_the_trial_goes_on(
     identities = [int(robot) for robot in state.robots.identity]
     programs = dict(zip(identities, DEEDS.values()))
 
-    def command(identity):
-        if identity in programs:
-            return [sys.executable, "-c", BAD.format(deed=programs[identity])]
-        return [sys.executable, "-m", "formicarium.trial.controller"]
-
-    with Controllers(system.onboard, state, patience=8.0, command=command) as controllers:
+    with Controllers(system.onboard, state, patience=8.0, command=commands_of(programs)) as controllers:
         controllers.advance(12)
         lost = {loss.robot: loss for loss in controllers.lost}
     assert state.clock[0].cycle == 12 and set(lost) == set(programs)

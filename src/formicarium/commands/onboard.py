@@ -29,6 +29,7 @@ def onboard(
 
         formicarium onboard my-swarm --cycles 300
         formicarium onboard mark-i3 --start 6000 --robots 10
+        formicarium onboard coverage --start 300 --robots 10
 
     Parameters
     ----------
@@ -55,7 +56,7 @@ def onboard(
 
     from formicarium.commands.errors import UserError
     from formicarium.commands.known import find_system, parameters_of
-    from formicarium.trial.onboard import Controllers
+    from formicarium.trial.lockstep import Lockstep
     from formicarium.trial.simulate import drain
 
     found = find_system(system)
@@ -66,7 +67,11 @@ def onboard(
     state.clock[0].event_count = 0
     other = pickle.loads(pickle.dumps(state))
     logs: list[list[np.ndarray]] = [[], []]
-    with Controllers(found.onboard, other, patience) as controllers:
+    try:
+        started = Lockstep(found.onboard, other, patience)
+    except ValueError as error:
+        raise UserError(f"{system}: {error}") from error
+    with started as controllers:
         print(f"{len(controllers.processes)} controllers take over at cycle {start}", flush=True)
         for _ in range(0, cycles, 100):
             length = min(100, cycles - int(state.clock[0].cycle - start))

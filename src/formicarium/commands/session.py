@@ -11,6 +11,7 @@ from formicarium.campaigns.provenance import session
 from formicarium.campaigns.runner import SetReport, run_set
 from formicarium.campaigns.store import Store
 from formicarium.commands.errors import UserError
+from formicarium.commands.folders import results_folder
 from formicarium.commands.known import find_system
 from formicarium.commands.mission import parameters_with_map, print_missions
 from formicarium.commands.pictures import draw_run, draw_set
@@ -57,7 +58,7 @@ def perform(request: Request) -> int:
     system = find_system(request.system)
     parameters = parameters_with_map(system, request.setting, request.robots, request.settings, request.map)
     configuration = configuration_of(system, parameters)
-    folder = request.out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}"
+    folder = request.out or results_folder(system.name, configuration.identity)
     seeds = range(request.seed, request.seed + request.runs)
     every = _frames_every(request)
     recordings = folder / RECORDINGS if request.record else None

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from formicarium.campaigns.configuration import Configuration
 from formicarium.commands.errors import UserError
 from formicarium.commands.extras import require
+from formicarium.commands.folders import results_folder
 from formicarium.commands.known import find_system
 from formicarium.commands.mission import parameters_with_map
 from formicarium.commands.work import RECORDED_EVERY, configuration_of
@@ -71,7 +72,7 @@ def watch_live(
         session = Session(system, parameters, seed)
     except Unwatchable as error:
         raise UserError(str(error)) from error
-    folder = out or Path("formicarium-results") / f"{system.name}-{configuration.identity[:8]}" / "recordings"
+    folder = out or results_folder(system.name, configuration.identity) / "recordings"
     path = unused(folder, seed)
     every = max(1, round(RECORDED_EVERY / session.scene.cycle_time))
     session.warm_up()

@@ -12,9 +12,10 @@ import numpy as np
 from gymnasium import spaces
 from pettingzoo import ParallelEnv
 
-from formicarium.learning.spaces import blanked, boxes_of, columns_of, names_of
+from formicarium.learning.spaces import blanked, boxes_of, columns_of, names_of, plain
 from formicarium.streams import generator
 from formicarium.systems.registry import System
+from formicarium.trial.lockstep import own
 from formicarium.trial.simulate import drain
 
 Fields = dict[str, np.ndarray]  # name of a field -> its numbers
@@ -53,7 +54,7 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         self._seeds = generator(FIRST, "later trials")
         readings, commands = np.asarray(self.swarm.readings), np.asarray(self.swarm.commands)
         self._observed = names_of(readings.dtype, observe, "observe")
-        self._acted = names_of(commands.dtype, act, "act")
+        self._acted = names_of(plain(commands.dtype), act, "act")
         self._speeds = [name for name in commands.dtype.names or () if commands.dtype[name].base.kind == "f"]
         whole = set(self._acted) == set(names_of(commands.dtype))
         self._decide = None if whole else _function(self._onboard.decide)
@@ -132,7 +133,8 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         self.swarm = self._begin(self._parameters, seed)
         keys = np.asarray(self.swarm.robots["key"])
         self._places = {f"robot_{keys[i] + 1}": int(i) for i in np.argsort(keys)}
-        self._tables = [table[0] for table in self._onboard.tables(self.swarm)]
+        tables = self._onboard.tables(self.swarm)
+        self._tables = [[own(table, i).view(np.recarray)[0] for table in tables] for i in range(len(keys))]
 
     def _observations(self, agents: Sequence[str]) -> dict[str, Fields]:
         columns = columns_of(blanked(self.swarm.readings), self._observed)
@@ -162,7 +164,7 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         assert self._decide is not None
         state = self.swarm
         for i in map(self._places.__getitem__, agents):
-            self._decide(state.readings[i], state.memories[i], state.commands[i], *self._tables)
+            self._decide(state.readings[i], state.memories[i], state.commands[i], *self._tables[i])
         for name, column in columns_of(np.asarray(state.commands), self._speeds).items():
             if not np.isfinite(column).all():
                 agent = next(agent for agent, i in self._places.items() if not np.isfinite(column[i]).all())
@@ -187,4 +189,4 @@ def _function(place: str) -> Callable[..., None]:
 def _speed_limit(tables: Sequence[np.ndarray]) -> float:
     """Return the speed, m/s, that the robots' wheels are said to reach in what they are told; infinite if none is."""
     told = [table for table in map(np.asarray, tables) if "speed_limit" in (table.dtype.names or ())]
-    return float(told[0]["speed_limit"][0]) if told else float("inf")
+    return float(told[0]["speed_limit"].max()) if told else float("inf")

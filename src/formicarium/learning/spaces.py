@@ -36,9 +36,14 @@ def names_of(layout: np.dtype, wanted: Sequence[str] | None = None, said: str = 
     found: list[str] = []
     for name in fields:
         if name in chosen:
-            inner = layout[name].base.names
-            found += [f"{name}.{part}" for part in inner] if inner else [name]
+            inner = layout[name].base
+            found += [f"{name}.{part}" for part in names_of(inner)] if inner.names else [name]
     return tuple(found)
+
+
+def plain(layout: np.dtype) -> np.dtype:
+    """Return the layout of a record without the fields that are records themselves, such as messages of many parts."""
+    return np.dtype([(name, layout[name]) for name in layout.names or () if not layout[name].base.names])
 
 
 def columns_of(records: np.ndarray, names: Sequence[str]) -> dict[str, np.ndarray]:
@@ -80,10 +85,15 @@ def blanked(readings: np.ndarray) -> np.ndarray:
     "blobs" has "blob_count" entries; behind them lie leftovers of earlier cycles, which are no readings.
     """
     found = np.array(readings)
-    fields = found.dtype.names or ()
+    _blank(found)
+    return found
+
+
+def _blank(records: np.ndarray) -> None:
+    fields = records.dtype.names or ()
     for name in fields:
         count = f"{name.removesuffix('s')}_count"
-        if count in fields:
-            beyond = np.arange(found[name].shape[1]) >= found[count][:, None]
-            found[name][beyond] = np.zeros((), found.dtype[name].base)
-    return found
+        if name.endswith("s") and count in fields:
+            beyond = np.arange(records[name].shape[-1]) >= records[count][..., None]
+            records[name][beyond] = np.zeros((), records.dtype[name].base)
+        _blank(records[name])

@@ -19,6 +19,7 @@ from formicarium.systems.registry import resolve
 INTERPRETED_CYCLES = 220  # enough for two looks
 LONGEST = 120.0  # s for all of them
 FILE = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+)| at (?P<other>\S+\.py) \((?P<number>\d+)\)')
+WHERE = re.compile(r"cycle (?P<cycle>\d+), robot (?P<robot>\d+)")
 ADVICE = (
     "Way out: functions under @compiled may use numbers, records, arrays, math and other compiled functions; no "
     "dictionaries, texts, classes or new arrays. The code itself runs as plain Python with FORMICARIUM_INTERPRETED=1."
@@ -47,10 +48,19 @@ def explain(place: str, parameters: str, seed: int, cycle: int, what: str) -> st
         state = system.begin(system.parameters.model_validate_json(parameters), seed)  # type: ignore[misc]
     found = interpreted(place, state)
     if found:
-        return f"{head}, {found}"
+        return f"{head}, {found}{way_out(system.name, seed, found)}"
     if "Failed in nopython mode" in what or "numba" in what or "TypingError" in what:
         return f"{head}: the compiler does not understand{lines_of(what)}\n{ADVICE}"
     return f"{head}: {what} after cycle {reached}; plain Python goes on from there without complaint.\n{ADVICE}"
+
+
+def way_out(name: str, seed: int, found: str) -> str:
+    """Return the command that stops where a behaviour fails; empty if no robot's cycle is known."""
+    place = WHERE.match(found)
+    if place is None:
+        return ""
+    command = f"formicarium debug {name} --seed {seed} --cycle {place['cycle']} --robot {place['robot']}"
+    return f"\nWay out: {command} stops there, line by line; add the run's own --robots, --setting and --set."
 
 
 def lines_of(message: str) -> str:

@@ -7,7 +7,7 @@ small number, written on the robot) and ``draws`` (the robot's own random stream
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -23,10 +23,13 @@ from formicarium.trial.onboard import Onboard
 from formicarium.trial.record import FLOOR, Polygon, Scene, Span, Timeline, Trial
 from formicarium.trial.showing import byte, colour, degrees, fields, metres, reading_sections, said
 from formicarium.trial.simulate import Album, simulate
+from formicarium.trial.swarm import castes as of_castes
+from formicarium.trial.swarm import phases as of_one_caste
 from formicarium.trial.swarm.arena import Arena, read_arena
+from formicarium.trial.swarm.castes import Caste
 from formicarium.trial.swarm.guard import guarded
 from formicarium.trial.swarm.parameters import configuring
-from formicarium.trial.swarm.phases import DIED, ROLE, act, move, sense, serve
+from formicarium.trial.swarm.phases import DIED, ROLE, move, serve
 from formicarium.trial.swarm.state import SwarmState, begin_swarm
 from formicarium.trial.touching import touch_robot
 from formicarium.trial.watching import Impossible, Inspection, Intervention, Section, Watching
@@ -55,6 +58,8 @@ class Swarm(NamedTuple):
     times: Mapping[str, str] = {}  # column of the row with a run time -> its label
     prepare: Callable[[SwarmState, Any, int], None] | None = None  # (state, parameters, seed) before the first cycle
     settings: Mapping[int, Mapping[str, Mapping[str, Any]]] = {}  # number -> group -> number -> value
+    # (parameters) -> the robots' castes; the loop takes sense and act from trial.swarm.castes then
+    castes: Callable[[Any], Sequence[Caste]] | None = None
     # For controllers in processes of their own: decide(reading, memory, command, behaviour, epuck, cycle_time)
     # and note(state), both as the loop calls them.
     decide: Callable[..., None] | None = None
@@ -65,7 +70,8 @@ def assemble(swarm: Swarm) -> System:
     """Return the system that can be run, swept, watched, replayed and tested."""
 
     def begin(parameters: Any, seed: int, *, storage: np.ndarray | None = None) -> SwarmState:
-        state = begin_swarm(parameters, seed, arena_of(parameters), swarm.memory, swarm.notes, storage)
+        castes = swarm.castes(parameters) if swarm.castes is not None else ()
+        state = begin_swarm(parameters, seed, arena_of(parameters), swarm.memory, swarm.notes, storage, castes)
         if swarm.prepare is not None:
             swarm.prepare(state, parameters, seed)
         return state
@@ -191,20 +197,23 @@ def taken_apart(swarm: Swarm) -> Onboard | None:
     if decide is None or note is None:
         return None
 
+    phases = of_castes if swarm.castes is not None else of_one_caste
+
     def after(state: SwarmState) -> None:
-        act(state)
+        phases.act(state)
         move(state)
         serve(state)
         note(state)
         state.clock[0].cycle += 1
 
     plain = getattr(decide, "__wrapped__", decide)
-    return Onboard(f"{plain.__module__}:{plain.__name__}", given, sense, after)
+    return Onboard(f"{plain.__module__}:{plain.__name__}", given, phases.sense, after)
 
 
 def given(state: SwarmState) -> tuple[Any, ...]:
-    """Return what every robot is told before it is switched on."""
-    return state.behaviour, state.epuck, state.world.settings["cycle_time"]
+    """Return what every robot is told before it is switched on; castes have an e-puck's numbers each."""
+    epuck = state.epuck if len(state.epuck) == 1 else state.epuck[state.castes]
+    return state.behaviour, epuck, state.world.settings["cycle_time"]
 
 
 def words(member: IntEnum) -> str:

@@ -30,8 +30,8 @@ def parallel_env(
         reward: (state after the cycle, events of the cycle) -> a number for all robots, or (N,) in the order of
             ``state.robots``. It sees everything, as observers do. None: 0.0.
         observe: fields of the Reading that are observed; all if None.
-        act: fields of the Command that the learner decides; all if None. The others are decided by the system's own
-            behaviour, which then also keeps the robot's memory.
+        act: fields of the Command that the learner decides; all if None, but for messages that are records of many
+            parts. The others are decided by the system's own behaviour, which then also keeps the robot's memory.
 
     Raises:
         UserError: if the extra is missing, there is no such system or field, or the system does not say where its

@@ -20,6 +20,7 @@ from formicarium.commands.calls.results import Results
 from formicarium.commands.campaign.study import open_study, study_of
 from formicarium.commands.errors import UserError
 from formicarium.commands.fields import find_field, with_values
+from formicarium.commands.folders import results_folder
 from formicarium.commands.known import find_system, parameters_of
 from formicarium.commands.session import LIBRARIES
 from formicarium.commands.tables import EVERY
@@ -103,9 +104,7 @@ def run_set(
     if not wanted or wanted[0] < 0:
         raise UserError(f"seeds {wanted}: at least one whole number, none below 0")
     configuration = configuration_of(found, chosen)
-    folder = (
-        Path(out) if out is not None else Path("formicarium-results") / f"{found.name}-{configuration.identity[:8]}"
-    )
+    folder = Path(out) if out is not None else results_folder(found.name, configuration.identity)
     every = dict.fromkeys(wanted, frames_every) if frames_every is not None else {}
     function = function_of(system, chosen, every, configuration.sources)
     tables = {"events": {}, **({"frames": {EVERY: str(frames_every)}} if frames_every is not None else {})}

@@ -6,6 +6,7 @@ import numpy as np
 
 from formicarium.observers.graphs import Graph
 from formicarium.systems.coverage.measures import EventKind, Role
+from formicarium.systems.coverage.onboard import ONBOARD
 from formicarium.systems.coverage.parameters import CoverageParameters, coverage_parameters
 from formicarium.systems.coverage.replanning import advance
 from formicarium.systems.coverage.setup import begin
@@ -98,4 +99,5 @@ COVERAGE = System(
     advance=advance,
     roles=frame_roles,
     watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row, blockable=False),
+    onboard=ONBOARD,
 )

@@ -9,6 +9,7 @@ from formicarium.physics.floor import corners
 from formicarium.systems.partitioning.arena import make_arena
 from formicarium.systems.partitioning.loop import run
 from formicarium.systems.partitioning.measures import EventKind, outcome, role_of
+from formicarium.systems.partitioning.onboard import ONBOARD
 from formicarium.systems.partitioning.parameters import PartitioningParameters, partitioning_parameters
 from formicarium.systems.partitioning.setup import PartitioningState, begin
 from formicarium.systems.partitioning.watching import DEAD, holds, inspect, intervene, roll, shoot, shown, tell
@@ -122,4 +123,5 @@ PARTITIONING = System(
     advance=run,
     roles=frame_roles,
     watching=Watching(scene_of, shoot, roll, inspect, tell, intervene, outcome_row),
+    onboard=ONBOARD,
 )

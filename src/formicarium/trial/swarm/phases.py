@@ -34,6 +34,13 @@ def sense(state):
 @compiled
 def act(state):
     """Carry out every Command; one that is no number ends the trial, and is reported when it has ended."""
+    refuse_no_numbers(state)
+    act_as_commanded(state)
+
+
+@compiled
+def refuse_no_numbers(state):
+    """End the trial at the first commanded speed that is no number; such wheels stand still."""
     for i in range(len(state.robots)):
         command = state.commands[i]
         if state.robots[i].alive == 1 and not (math.isfinite(command.left) and math.isfinite(command.right)):
@@ -43,7 +50,6 @@ def act(state):
                 state.clock[0].finished = 1
             command.left = 0.0
             command.right = 0.0
-    act_as_commanded(state)
 
 
 @compiled

@@ -1,5 +1,6 @@
 """The state of a swarm's trial and how it begins."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from formicarium.trial.events import CLOCK
 from formicarium.trial.record import EVENT
 from formicarium.trial.setup import APART, PLACING_ATTEMPTS, WALL_MARGIN, NoRoom, make_crew
 from formicarium.trial.swarm.arena import Arena
+from formicarium.trial.swarm.castes import Caste, castes_by_key, embody
 
 EVENTS_PER_LOOK = 400  # room in the log for each robot in one look of 100 cycles
 BOOTH_CLEARANCE = 0.15  # m, no robot starts this near to the middle of a mouth
@@ -33,6 +35,7 @@ class SwarmState(NamedTuple):
     clock: np.recarray  # CLOCK (1,)
     world: World
     robots: np.recarray  # ROBOT (N,)
+    castes: np.ndarray  # (N,): place of each robot's table in epuck; all 0 in a swarm of one caste
     readings: np.recarray  # READING of all senses (N,)
     memories: np.recarray  # the system's MEMORY (N,)
     commands: np.recarray  # COMMAND (N,)
@@ -46,7 +49,7 @@ class SwarmState(NamedTuple):
     seed: np.ndarray  # (1,)
     queue: np.recarray  # QUEUE (N,), scratch
     events: np.recarray  # EVENT, scratch
-    epuck: np.recarray  # tables of numbers, one record each
+    epuck: np.recarray  # tables of numbers, one record each; here one a caste
     sight: np.recarray
     behaviour: np.recarray
     swarm: np.recarray
@@ -59,11 +62,12 @@ def begin_swarm(
     memory: np.dtype,
     notes: np.dtype | None = None,
     storage: np.ndarray | None = None,
+    castes: Sequence[Caste] = (),
 ) -> SwarmState:
     """Return the state of trial ``seed`` before its first cycle.
 
     Drawn from the seed: places and headings, identities, times of death. A robot's memory is zero but for a field
-    ``draws``, the start of its own random stream.
+    ``draws``, the start of its own random stream, and a field ``caste``, the number of its caste.
 
     Args:
         parameters: SwarmParameters with a group ``behaviour``.
@@ -72,19 +76,25 @@ def begin_swarm(
         memory: layout of a robot's memory.
         notes: layout of what the system's observer keeps of each robot.
         storage: permutation of the robots in memory, for tests.
+        castes: of the robots; one caste with the numbers of the parameters' group ``epuck`` if empty.
 
     Raises:
         NoRoom: if the robots do not fit.
+        ValueError: if the castes are not as many robots as there are.
     """
     p = parameters
     count = p.swarm.robots
+    castes = castes or (Caste(count, p.epuck),)
+    by_key = castes_by_key(castes, count)
     places = free_places(count, arena, seed)
     crew = make_crew(places, p.epuck, seed, p.swarm.failure_rate, p.swarm.cycle_time, p.swarm.deaths, storage)
+    numbers = by_key[crew.robots.key]
+    embody(crew.bodies, numbers, castes)
     world = make_world(
         crew.bodies,
         arena.segments(),
         cycle_time=p.swarm.cycle_time,
-        reach=max(p.epuck.radio_range, p.epuck.camera_range) + 0.01,
+        reach=max(max(caste.epuck.radio_range, caste.epuck.camera_range) for caste in castes) + 0.01,
     )
     clock = records(CLOCK, 1)
     clock[0].last_cycle = round(p.swarm.time_cap / p.swarm.cycle_time)
@@ -93,11 +103,14 @@ def begin_swarm(
     memories = records(memory, count)
     if "draws" in (memory.names or ()):
         memories.draws = [stream(seed, "decisions", int(key)) for key in crew.robots.key]
+    if "caste" in (memory.names or ()):
+        memories.caste = numbers
     booths, lights = make_booths(arena)
     return SwarmState(
         clock=clock,
         world=world,
         robots=crew.robots,
+        castes=numbers,
         readings=records(READING, count),
         memories=memories,
         commands=commands,
@@ -111,7 +124,7 @@ def begin_swarm(
         seed=np.array([seed], "i8"),
         queue=records(QUEUE, count),
         events=records(EVENT, 4096 + EVENTS_PER_LOOK * count),
-        epuck=p.epuck.record(),
+        epuck=np.concatenate([caste.epuck.record() for caste in castes]).view(np.recarray),
         sight=p.sight.record(),
         behaviour=p.behaviour.record(),
         swarm=p.swarm.record(),

@@ -1,0 +1,43 @@
+"""The main loop taken apart where the robots decide, for controllers outside the simulator."""
+
+from typing import Any
+
+from formicarium.compiled import compiled
+from formicarium.devices.depot import serve_depots
+from formicarium.systems.partitioning.measures import note
+from formicarium.trial.onboard import Onboard
+from formicarium.trial.wheeled import act, move, sense
+
+
+@compiled
+def after(state):
+    """Let the world go on from the commands: act, move, serve, note, as in ``loop.run``."""
+    clock = state.clock[0]
+    act(state)
+    move(state)
+    serve_depots(
+        state.depots,
+        state.pairs,
+        state.lights,
+        state.grips,
+        state.world.bodies,
+        state.interfacing[0],
+        clock.cycle,
+        state.world.settings[0].cycle_time,
+    )
+    note(state)
+    clock.cycle += 1
+
+
+def tables(state: Any) -> tuple[Any, ...]:
+    """Return what every robot is given: numbers of its behaviour and strategy, its chart, its own body.
+
+    Raises:
+        ValueError: if robots talk (TP-O3): what they hear is no part of a Reading, so it reaches no controller outside.
+    """
+    if state.strategy[0].social_weight > 0.0:
+        raise ValueError("strategy.social_weight: must be 0 where robots decide outside the loop: they cannot talk")
+    return state.behaviour, state.strategy, state.chart, state.epuck
+
+
+ONBOARD = Onboard("formicarium.systems.partitioning.behaviour:decide", tables, sense, after)
