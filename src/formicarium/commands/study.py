@@ -17,7 +17,8 @@ Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "schedu
 Figure = Literal[
     "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
     "hierarchy", "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions",
-    "planning-range", "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model", "hundred-tasks", "all",
+    "planning-range", "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model",
+    "hundred-tasks", "all",
 ]  # fmt: skip
 
 

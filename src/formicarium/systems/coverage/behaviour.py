@@ -3,8 +3,8 @@
 from formicarium.compiled import compiled
 from formicarium.control.turning import drive_towards
 from formicarium.systems.coverage.arms import choose_arm
-from formicarium.systems.coverage.election import hear_leader, is_root, rally
 from formicarium.systems.coverage.branching import bytes_more, grow, say_place, take_part, turn_off
+from formicarium.systems.coverage.election import hear_leader, is_root, rally
 from formicarium.systems.coverage.eruption import be_lost, erupt, find_reference, take_directions
 from formicarium.systems.coverage.flocking import flock
 from formicarium.systems.coverage.forces import clear, press

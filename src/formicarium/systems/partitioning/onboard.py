@@ -21,7 +21,7 @@ def after(state):
         state.lights,
         state.grips,
         state.world.bodies,
-        state.interfacing[0],
+        state.interfacing,
         clock.cycle,
         state.world.settings[0].cycle_time,
     )
