@@ -24,7 +24,7 @@ from formicarium.commands.fields import find_field, typed_value, with_values
 from formicarium.commands.known import find_system
 from formicarium.commands.mission import planned_parameters
 from formicarium.commands.work import configuration_of, row_function
-from formicarium.studies.missions import figure_missions, mission_rows
+from formicarium.studies.missions import COLUMNS, figure_missions, mission_rows
 
 SYSTEM, NAME, PATHS = "coverage", "coverage-missions", "mission.paths"
 
@@ -47,7 +47,7 @@ def draw_study(folder: Path, runs: int | None, sources: str | None) -> int:
     rows = found.to_pylist()
     if not rows:
         raise UserError(f"{folder}: no run of missions is there. Run them first.")
-    write_csv(found, folder / f"{NAME}-runs.csv")
+    write_csv(found.select([name for name in COLUMNS if name in found.column_names]), folder / f"{NAME}-runs.csv")
     write_csv(table.from_rows(mission_rows(rows)), folder / f"{NAME}.csv")
     written = [folder / f"{NAME}-runs.csv", folder / f"{NAME}.csv"]
     written.append(draw_chart(figure_missions(rows), folder / "figure-missions.png"))

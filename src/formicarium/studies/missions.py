@@ -11,6 +11,11 @@ from formicarium.studies.chart import Chart, Panel, Stack
 from formicarium.studies.prominences import Row, finite, median, picked
 
 PHASES = ("flock", "erupt", "hold", "gather")
+COLUMNS = (
+    *("map", "condition", "seed", "mission_done", "tasks_done", "tasks", "mission_s", "duration_s", "planned_s"),
+    *("flock_s", "erupt_s", "hold_s", "gather_s", "lost_share_range", "first_loss_range_s", "longest_loss_range_s"),
+    *("lost_share_sight", "lost_share_heard", "died", "followed", "planned_anew", "bytes_most", "sources"),
+)  # of a run, that its table holds
 LOW = 5.0  # percentile of the reach of arms that a plan may count with (ST-56)
 
 

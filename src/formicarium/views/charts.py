@@ -11,7 +11,8 @@ from formicarium.views.figure import new_figure, plain, save
 from formicarium.views.style import CURVES, GRID, INK, PALE_INK
 
 MARKERS = "osD^v"
-SHADES = ("#4a4f57", "#b9bec5", "#ffffff")  # parts of a bar, from the bottom (as in Fig. 8)
+SHADES = ("#4a4f57", "#b9bec5", "#ffffff", "#7d848d")  # parts of a bar, from the bottom (three as in Fig. 8)
+LONG_TICKS = 60  # letters of all ticks of a panel; with more they stand on end
 
 
 def draw_chart(chart: Chart, path: Path) -> Path:
@@ -26,7 +27,8 @@ def draw_chart(chart: Chart, path: Path) -> Path:
     for axes, panel in zip(found, chart.panels, strict=True):
         _draw_panel(axes, panel)
     width = figure.get_figwidth()
-    figure.subplots_adjust(left=0.75 / width, right=1 - 0.2 / width, bottom=0.15, top=0.8, wspace=0.22)
+    room = 0.42 if any(map(_stand_on_end, chart.panels)) else 0.15
+    figure.subplots_adjust(left=0.75 / width, right=1 - 0.2 / width, bottom=room, top=0.8, wspace=0.22)
     figure.text(0.75 / width, 0.95, chart.title, size=12.5, color=INK, weight="bold", va="center")
     figure.text(0.75 / width, 0.9, chart.note, size=9, color=PALE_INK, va="center")
     if chart.keys:
@@ -67,9 +69,17 @@ def _draw_panel(axes: Axes, panel: Panel) -> None:
         axes.plot([place, place], [low, high], color=INK, lw=1.2)
         axes.bar(place, third - first, bottom=first, color=GRID, edgecolor=INK, width=0.55)
         axes.plot([place - 0.27, place + 0.27], [middle, middle], color=CURVES[1], lw=2)
-    ticks = [stack.tick for stack in panel.stacks] + [spread.tick for spread in panel.spreads]
+    ticks = _ticks(panel)
     if ticks:
-        axes.set_xticks(range(len(ticks)), ticks)
+        axes.set_xticks(range(len(ticks)), ticks, rotation=90 if _stand_on_end(panel) else 0)
     if panel.limit:
         axes.axvline(panel.limit[0], color=PALE_INK, ls=(0, (4, 3)), lw=1)
         axes.annotate(panel.limit[1], (panel.limit[0], 0.02), (5, 0), textcoords="offset points", size=9)
+
+
+def _ticks(panel: Panel) -> list[str]:
+    return [stack.tick for stack in panel.stacks] + [spread.tick for spread in panel.spreads]
+
+
+def _stand_on_end(panel: Panel) -> bool:
+    return sum(map(len, _ticks(panel))) > LONG_TICKS
