@@ -110,6 +110,16 @@ def test_a_robot_astray_is_missed_in_the_figure(grown):
     assert abs(now["ratio_2"] - 0.7) > abs(was["ratio_2"] - 0.7) + 0.02
 
 
+def test_a_branch_whose_root_is_gone_is_not_full(grown):
+    """Its robots still have their places."""
+    p, state = grown
+    less = copy_of(state)
+    less.robots.alive[int(np.flatnonzero(less.memories.branch == 1)[0])] = 0
+    row = fractal_columns(p, less)
+    assert row["branches_full"] == 7 - 3  # itself and its two children
+    assert row["places_filled"] == pytest.approx(6 / 7)
+
+
 def test_stars_say_nothing_of_branches_and_their_messages_are_no_longer():
     star = advance(swarm(setting=5, seed=4), 300)
     assert (star.memories.branch == 0).all() and (star.commands.message.place == 0).all()

@@ -25,7 +25,7 @@ def fractal_columns(parameters: CoverageParameters, state: Any) -> dict[str, int
     arms = parameters.tasks.count
     points = placed(state)
     wanted = [(arm, branch) for arm in range(1, arms + 1) for branch in branches_of(formation)]
-    full = [key for key in wanted if all((*key, place) in points for place in range(1, formation.branch_robots + 1))]
+    full = [key for key in wanted if is_full(points, *key, formation)]
     vectors = {key: points[*key, formation.branch_robots] - points[root_of(*key, formation)] for key in full}
     row: dict[str, int | float | None] = {
         "branches": len(wanted),
@@ -77,6 +77,12 @@ def branches_of(formation: Any) -> list[int]:
 def root_of(arm: int, branch: int, formation: Any) -> Place:
     """Return the place in which a branch begins."""
     return (arm, branch // DIGIT, int(formation.branch_robots)) if branch else (0, 0, 0)
+
+
+def is_full(points: Points, arm: int, branch: int, formation: Any) -> bool:
+    """Tell whether a branch has a robot in each of its places, and one in its root."""
+    places = [(arm, branch, place) for place in range(1, int(formation.branch_robots) + 1)]
+    return all(place in points for place in (root_of(arm, branch, formation), *places))
 
 
 def share_filled(points: Points, formation: Any, arms: int) -> float:
