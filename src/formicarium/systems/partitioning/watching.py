@@ -10,7 +10,7 @@ from formicarium.devices.depot import Place
 from formicarium.robots.records import Colour
 from formicarium.systems.partitioning.loop import run
 from formicarium.systems.partitioning.measures import EventKind, Role, role_of
-from formicarium.systems.partitioning.memory import NEVER, Deed, Estimate, Ground, Label, State
+from formicarium.systems.partitioning.memory import NEVER, Area, Deed, Estimate, Ground, Label, State
 from formicarium.trial.film import shoot_robots
 from formicarium.trial.showing import degrees, fields, metres, reading_sections
 from formicarium.trial.touching import touch_robot
@@ -131,6 +131,9 @@ def words_at(cycle: int, cycle_time: float) -> dict[str, Any]:
         "updated": lambda value: Estimate(int(value)).name.lower(),
         "measured": seconds,
         "stay": seconds,
+        "middle": seconds,
+        "ways": lambda value: ", ".join(map(seconds, value)),
+        **dict.fromkeys(("area", "set_out", "far"), lambda value: Area(int(value)).name.lower()),
         "measured_at": lambda value: ", ".join(moment(cycle) for cycle in value[1:]),
         "path_side": lambda value: "left" if value > 0 else "right" if value < 0 else "unknown",
     }
