@@ -46,19 +46,28 @@ def no_dead_sensor(name: str) -> None:
         sensors = rest[-1] if len(rest) == path.count(".") else 1
         table = values.reshape(-1, sensors)
         dead += [f"{path}[{k}]" for k in range(sensors) if len(np.unique(table[:, k])) < 2]
-    dead = [path for path in dead if not unused_word(path, readings)]
+    said = words_of(name)
+    dead = [path for path in dead if not unused_word(path, readings, said)]
     require(not dead, f"always the same in 4000 cycles: {', '.join(dead)}")
 
 
-def unused_word(path: str, readings: np.ndarray) -> bool:
-    """Tell whether a word of the messages is simply not used: a whole number that is 0 in all packets."""
+def words_of(name: str) -> set[str]:
+    """Return the fields of what robots say, where a Command holds a message; what is measured is none of them."""
+    fields = next(recorded(name, 1)).commands.dtype.fields or {}
+    return set(fields["message"][0].names) if "message" in fields else set()
+
+
+def unused_word(path: str, readings: np.ndarray, said: set[str]) -> bool:
+    """Tell whether a word of the messages is simply not used: 0 in all packets, a whole number or among ``said``."""
     if not path.startswith(".packets."):
         return False
     name, _, place = path.removeprefix(".packets.").removesuffix("]").partition("[")
-    words = readings["packets"][name]
+    words = readings["packets"]
+    for part in name.split("."):
+        words = words[part]
     if words.ndim > readings["packets"].ndim:
         words = words[..., int(place)]
-    return bool(np.issubdtype(words.dtype, np.integer)) and not words.any()
+    return (bool(np.issubdtype(words.dtype, np.integer)) or name.partition(".")[0] in said) and not words.any()
 
 
 def own_identity_and_clock(name: str) -> None:
