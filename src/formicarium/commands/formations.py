@@ -3,6 +3,7 @@
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
 from formicarium.campaigns import table
@@ -14,6 +15,7 @@ from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
 from formicarium.studies import formations
+from formicarium.trial.record import Frames, Scene
 
 TITLES = {"fractal": "Arms that branch", "network": "Networks of arms and tubes"}
 COLUMNS = {"fractal": formations.FRACTAL, "network": formations.NETWORK}
@@ -22,6 +24,8 @@ DESIGNS = {
     "network": ("coverage-network", "coverage-network-failing"),
 }
 PICTURE_EVERY = 5.0  # s
+MARGIN = 0.5  # m, round the robots of a picture
+CORNERS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
 SHORTER: tuple[str, ...] = ()  # settings that tests add
 
 
@@ -71,7 +75,18 @@ def _draw_first(study: Study, path: Path) -> Path:
     parameters = system.parameters.model_validate(job.configuration.parameters)
     trial = system.run(parameters, seed, frames_every=PICTURE_EVERY)
     assert trial.frames is not None
-    return draw_frame(trial.scene, trial.frames, path, title=f"{study.folder.name}\nseed {seed}")
+    return draw_frame(
+        _widened(trial.scene, trial.frames), trial.frames, path, title=f"{study.folder.name}\nseed {seed}"
+    )
+
+
+def _widened(scene: Scene, frames: Frames) -> Scene:
+    """Return a scene whose floor, its first polygon, reaches round all robots of the last frame."""
+    floor, *others = scene.polygons
+    points = np.vstack([floor.points, np.column_stack([frames.x[-1], frames.y[-1]])])
+    (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)]) + MARGIN * CORNERS
+    return scene._replace(polygons=(floor._replace(points=corners), *others))
 
 
 def _studies(figure: str, folder: Path, runs: int | None, sources: str | None) -> list[Study]:

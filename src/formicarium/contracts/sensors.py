@@ -62,10 +62,12 @@ def unused_word(path: str, readings: np.ndarray, said: set[str]) -> bool:
     if not path.startswith(".packets."):
         return False
     name, _, place = path.removeprefix(".packets.").removesuffix("]").partition("[")
-    words = readings["packets"][name]
+    words = readings["packets"]
+    for part in name.split("."):
+        words = words[part]
     if words.ndim > readings["packets"].ndim:
         words = words[..., int(place)]
-    return (bool(np.issubdtype(words.dtype, np.integer)) or name in said) and not words.any()
+    return (bool(np.issubdtype(words.dtype, np.integer)) or name.partition(".")[0] in said) and not words.any()
 
 
 def own_identity_and_clock(name: str) -> None:

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from formicarium.contracts.states import copy_of
+from formicarium.contracts.interpreted import compiled, interpreted
+from formicarium.contracts.states import copy_of, differences
 from formicarium.systems.coverage.branches import descends, level_of, swing_of
 from formicarium.systems.coverage.fractals import SHIFTS, area, boxes, design, dimension, fractal_columns, sampled
 from formicarium.systems.coverage.parameters import coverage_parameters
@@ -118,6 +119,13 @@ def test_a_branch_whose_root_is_gone_is_not_full(grown):
     row = fractal_columns(p, less)
     assert row["branches_full"] == 7 - 3  # itself and its two children
     assert row["places_filled"] == pytest.approx(6 / 7)
+
+
+@pytest.mark.parametrize("setting", [8, 9])
+def test_formations_are_the_same_compiled_and_interpreted(setting):
+    """To the last bit, as the contract asks of stars."""
+    state = advance(swarm(setting=setting, robots=16, seed=6), 600)
+    assert differences(interpreted("coverage", state, 12), compiled("coverage", state, 12)) == []
 
 
 def test_stars_say_nothing_of_branches_and_their_messages_are_no_longer():

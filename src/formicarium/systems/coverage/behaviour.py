@@ -47,7 +47,7 @@ def decide(reading, memory, command, table, chart, footbot):
     elif memory.mode == Mode.FLOCK:
         keep_up(reading, memory, command, table, footbot)
     elif memory.mode == Mode.ERUPT or memory.mode == Mode.HOLD:
-        if chart.formation.shape == Shape.STAR:
+        if chart.formation.kind == Shape.STAR:
             erupt(reading, memory, command, table, chart, footbot)
         else:
             grow(reading, memory, command, table, chart.formation, footbot)
@@ -59,7 +59,7 @@ def decide(reading, memory, command, table, chart, footbot):
     drive(reading, memory, command, table, chart, footbot)
     command.colour = memory.arm
     speak(reading, memory, command, footbot.message_bytes - bytes_more(memory, chart.formation))
-    if chart.formation.shape != Shape.STAR:
+    if chart.formation.kind != Shape.STAR:
         say_place(memory, command, chart.formation)
 
 
@@ -70,14 +70,14 @@ def listen(reading, memory, table, chart):
     if memory.term > 0:
         hear_leader(reading, memory, table, chart)
     hear_phase(reading, memory)
-    if chart.formation.shape == Shape.NETWORK:
+    if chart.formation.kind == Shape.NETWORK:
         find_tips(reading, memory, table, chart)
     if is_root(memory, reading.identity):
         stay_master(memory, reading.cycle)
     else:
         find_way(reading, memory, table, chart)
         choose_arm(reading, memory, table)
-        if chart.formation.shape == Shape.STAR:
+        if chart.formation.kind == Shape.STAR:
             find_reference(reading, memory)
             take_directions(reading, memory, table)
         else:

@@ -92,7 +92,7 @@ def remoteness(record, arm, branch, formation):
 
     A tube's other end may be nearer to the master, so there the way to the own arm's tip counts.
     """
-    if formation.shape == Shape.NETWORK and branch > 0:
+    if formation.kind == Shape.NETWORK and branch > 0:
         own = record.arms[arm - 1]
         return own.way if own.open == 1 else math.inf
     return record.gradient

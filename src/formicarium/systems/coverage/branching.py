@@ -40,7 +40,7 @@ def take_part(reading, memory, table, formation):
         enter(memory, 0, reading.cycle)
     find_place(reading, memory, table, formation)
     count_followers(reading, memory)
-    if formation.shape == Shape.NETWORK:
+    if formation.kind == Shape.NETWORK:
         flow(reading, memory, formation)
     if memory.aligned == 1 and reading.cycle - memory.place_since >= formation.patience:
         go_over(reading, memory, formation)
@@ -114,7 +114,7 @@ def go_over(reading, memory, formation):
             root = packet.sender
     if root == 0:
         return
-    if formation.shape == Shape.NETWORK:
+    if formation.kind == Shape.NETWORK:
         child = thinnest_tube(reading, memory, formation, root)
     else:
         child = fewest(reading, memory, formation, root)
@@ -145,7 +145,7 @@ def turn_off(memory, formation):
     """Reckon how far one is off the branch's line, not off the stem's."""
     if memory.reference_place < 0 or memory.branch == 0:
         return
-    if formation.shape == Shape.NETWORK:
+    if formation.kind == Shape.NETWORK:
         memory.offset = wrapped(memory.offset - swing_to(memory, memory.arm, memory.branch))
     else:
         memory.offset = wrapped(memory.offset - swing_of(memory.branch, formation))
@@ -155,7 +155,7 @@ def turn_off(memory, formation):
 def grow(reading, memory, command, table, formation, footbot):
     """Do what an eruption with branches asks of a backbone robot; delta shrinks with each branching."""
     spacing = memory.spacing
-    if formation.shape == Shape.FRACTAL:
+    if formation.kind == Shape.FRACTAL:
         spacing *= formation.ratio ** level_of(memory.branch)
     if memory.reference_place >= 0 and memory.arm > 0:
         note_alignment(memory, table)
@@ -190,7 +190,7 @@ def press_branch(reading, memory, command, table, formation, spacing, limit):
             before = packet.gradient < memory.gradient
             if before if spare else not is_to_spare(packet.branch, packet.place, formation):
                 push_from(command, packet, wanted, table)
-        elif formation.shape == Shape.NETWORK and is_far_end(packet, memory, formation):
+        elif formation.kind == Shape.NETWORK and is_far_end(packet, memory, formation):
             push_from(command, packet, wanted, table)
     cut(command, table, limit)
 
@@ -198,9 +198,9 @@ def press_branch(reading, memory, command, table, formation, spacing, limit):
 @compiled
 def bytes_more(memory, formation):
     """Return how many bytes a message is longer than a star's."""
-    if formation.shape == Shape.STAR:
+    if formation.kind == Shape.STAR:
         return 0
-    return BRANCH_BYTES + (TUBE_BYTES * memory.arm_count if formation.shape == Shape.NETWORK else 0)
+    return BRANCH_BYTES + (TUBE_BYTES * memory.arm_count if formation.kind == Shape.NETWORK else 0)
 
 
 @compiled
@@ -209,6 +209,6 @@ def say_place(memory, command, formation):
     command.message.branch = memory.branch
     command.message.place = memory.place
     command.message.followers = memory.followers
-    if formation.shape == Shape.NETWORK:
+    if formation.kind == Shape.NETWORK:
         say_flow(memory, command)
     command.message.bytes += bytes_more(memory, formation)

@@ -38,7 +38,7 @@ class FormationTable(Table):
 
 def write_formation(record: Any, formation: FormationTable, cycle_time: float) -> None:
     """Write a FORMATION record."""
-    record.shape = SHAPES.index(formation.shape)
+    record.kind = SHAPES.index(formation.shape)
     for name in ("branch_robots", "branches", "angle", "ratio", "depth", "queue_share", "flux_power", "thinnest"):
         record[name] = getattr(formation, name)
     if formation.shape == "network":

@@ -181,7 +181,7 @@ CHARTED = np.dtype(
 # Into what arms grow.
 FORMATION = np.dtype(
     [
-        ("shape", "i8"),  # Shape
+        ("kind", "i8"),  # Shape; a field of that name would hide behind an array's own in interpreted code
         ("branch_robots", "i8"),  # of a branch; the last is the root of the next
         ("branches", "i8"),  # that one root has
         ("angle", "f8"),  # rad, between the outermost of them and their stem
