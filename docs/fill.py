@@ -20,6 +20,8 @@ def filled(page: str, reports: Sequence[str]) -> tuple[str, list[str]]:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     place, *sources = map(Path, sys.argv[1:])
     text, kept = filled(place.read_text(encoding="utf-8"), [path.read_text(encoding="utf-8") for path in sources])
     place.write_text(text, encoding="utf-8")
