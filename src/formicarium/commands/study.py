@@ -17,7 +17,7 @@ Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "schedu
 Figure = Literal[
     "2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "8", "9", "10", "11", "giving-up", "anova", "options",
     "hierarchy", "table-1", "arms", "safe", "drops", "occlusion", "laboratory", "scale", "tours", "missions",
-    "planning-range", "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model",
+    "mission-sizes", "planning-range", "fractal", "network", "aboard", "table-2-time", "table-2-travel", "paper-model",
     "hundred-tasks", "all",
 ]  # fmt: skip
 
@@ -67,7 +67,7 @@ def study(
         S19 of sequencing; 3 to 11, giving-up, anova (Table 1), options and hierarchy (beyond
         the paper, not in all) of partitioning; 2 of connectivity, and aboard (not in all: on the messages of an
         eruption); 4, 5, table-1, arms, safe, drops, occlusion, laboratory, scale, tours,
-        planning-range, and missions, fractal and network (not in all) of coverage; table-2-time,
+        planning-range, and missions, mission-sizes, fractal and network (not in all) of coverage; table-2-time,
         table-2-travel (with figures 7 and 8), paper-model (in HiGHS, one instance in ten),
         hundred-tasks and scale (up to 1,000) of scheduling.
     out
@@ -164,16 +164,13 @@ def _coverage(
     from formicarium.commands import formations, missions, prominences
     from formicarium.commands.errors import UserError
 
-    known = (*prominences.DESIGNS, "missions", *formations.DESIGNS)
+    known = (*prominences.DESIGNS, *missions.DESIGNS, *formations.DESIGNS)
     if figure not in known:
         raise UserError(f"--figure {figure}: the study coverage has {', '.join(known)}")
     if len(sources) > 1:
         raise UserError("--sources: the study coverage takes one")
     rows_of = sources[0] if sources else None
-    if figure == "missions":
-        code = 0 if collect_only or sources else missions.run_study(out, runs, workers)
-        return max(code, missions.draw_study(out, runs, rows_of))
-    study = formations if figure in formations.DESIGNS else prominences
+    study = next(known for known in (prominences, missions, formations) if figure in known.DESIGNS)
     code = 0 if collect_only or sources else study.run_study(figure, out, runs, workers)
     return max(code, study.draw_study(figure, out, runs, rows_of))
 
