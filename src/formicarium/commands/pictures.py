@@ -9,7 +9,10 @@ from formicarium.commands.tables import trial_of
 from formicarium.systems.registry import System
 
 Progress = Callable[[int, int], None]
-COUNTED = {"partitioning": "objects stored"}  # what the curve of a timeline counts, if not sequences
+COUNTED = {  # what the curve of a timeline counts, if not sequences
+    "partitioning": "objects stored",
+    "coverage": "lengths reached",
+}
 
 
 def draw_set(system: System, store: Store, seeds: Sequence[int], folder: Path) -> list[Path]:

@@ -192,7 +192,7 @@ class Overhead:
         self.side.text(
             0.05,
             below - 0.05,
-            f"{number}\n\nbooth filled: lit\nbooth hollow: dark",
+            f"{number}\n\nfilled: lit or reached\nhollow: dark or not",
             size=9,
             color=PALE_INK,
             va="top",

@@ -34,7 +34,7 @@ def draw_timeline(
     """
     kinds = list(dict.fromkeys(label for _, label in timeline.marks))
     heights = [max(LANE * len(timeline.lanes), 1.2), MARK_ROW * max(len(kinds), 1), 1.5]
-    figure = new_figure(9.6, sum(heights) + 1.4)
+    figure = new_figure(9.6, sum(heights) + 1.6)
     lanes, marks, curve = figure.subplots(
         3, 1, sharex=True, gridspec_kw={"height_ratios": heights, "hspace": 0.09 / (sum(heights) / 5)}
     )
@@ -43,8 +43,8 @@ def draw_timeline(
     _draw_counts(curve, timeline, counted)
     marks.set_visible(bool(kinds))
     total = figure.get_figheight()
-    figure.subplots_adjust(left=0.155, right=0.965, top=1 - 0.55 / total, bottom=0.55 / total)
-    figure.text(0.155, 1 - 0.3 / total, title, size=12, color=INK, weight="bold", va="center")
+    figure.subplots_adjust(left=0.155, right=0.965, top=1 - 0.75 / total, bottom=0.55 / total)
+    figure.text(0.155, 1 - 0.25 / total, title, size=12, color=INK, weight="bold", va="center")
     return save(figure, path)
 
 
