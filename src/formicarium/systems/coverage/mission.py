@@ -40,8 +40,8 @@ class MissionTable(Table):
     planning_range: float = number(
         1.0,
         "m",
-        "metres of arm for each robot of it, where a map does not say (spacing): less than the fifth percentile of what "
-        "arms of 2.4 m between robots reach, 1.3 m; the radio's 3 m cannot be flown [choice ST-56]",
+        "metres of arm for each robot of it, where a map does not say (spacing): less than the fifth percentile of "
+        "what arms of 2.4 m between robots reach, 1.3 m; the radio's 3 m cannot be flown [choice ST-56]",
         gt=0,
         le=10,
     )
