@@ -8,6 +8,12 @@ CENTIMETRES = 100.0  # in a metre
 
 
 @compiled
+def squared(number):
+    """Return x x: compiled x ** 2 is that too, but interpreted it is the library's power, which may differ by a bit."""
+    return number * number
+
+
+@compiled
 def lennard_jones(distance, spacing, depth):
     """Return the force away from a neighbour, here a velocity: F = (4 eps / x) ((tau / x)^4 - (tau / x)^2), m/s.
 
@@ -19,7 +25,7 @@ def lennard_jones(distance, spacing, depth):
         spacing: tau, m.
         depth: eps, m2/s; the paper's 10^6 cm2/s are 100 m2/s.
     """
-    square = (spacing / distance) ** 2
+    square = squared(spacing / distance)
     return 4.0 * depth / distance * (square * square - square)
 
 
@@ -32,9 +38,9 @@ def lennard_jones_printed(distance, spacing, depth):
     """
     x = distance * CENTIMETRES
     tau = spacing * CENTIMETRES
-    first = 4.0 * tau**4 / x**5
-    second = 2.0 * tau / x**3
-    return depth * CENTIMETRES**2 * (first**4 - 2.0 * second**2) / CENTIMETRES
+    first = 4.0 * squared(squared(tau)) / (x * squared(squared(x)))
+    second = 2.0 * tau / (x * squared(x))
+    return depth * squared(CENTIMETRES) * (squared(squared(first)) - 2.0 * squared(second)) / CENTIMETRES
 
 
 @compiled
