@@ -45,7 +45,8 @@ def parameters_with_map(
     require("scheduling", "--map")
     from formicarium.scheduling.reading import read_instance
 
-    asked: Any = parameters_of(system, setting, None, settings)
+    spacings = tuple(said for said in settings if said.partition("=")[0].rpartition(".")[2] == "planning_range")
+    asked: Any = parameters_of(system, setting, None, spacings)  # the others may not fit before the map is read
     instance = read_instance(file, robots, asked.mission.planning_range)
     refuse_what_arms_cannot_do(instance, file)
     return with_settings(planned_parameters(system, instance, file, setting), settings)

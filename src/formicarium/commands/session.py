@@ -99,7 +99,7 @@ def perform(request: Request) -> int:
                 progress.note(f"drawing seed {seed}")
                 stills = len(seeds) == 1
                 pictures += draw_run(system, store, seed, folder, stills, _has_movie(request, seed), progress.inside)
-        print_summary(screen, system, store, seeds, report, folder, pictures)
+        print_summary(screen, system, store, seeds, report, folder, pictures, targets=request.map is None)
         if request.map is not None and store.rows_of(seeds):
             print_missions(screen, store.rows_of(seeds))
         return _report_failures(report, folder)

@@ -63,8 +63,9 @@ def print_summary(
     report: SetReport,
     folder: Path,
     pictures: Sequence[Path],
+    targets: bool = True,
 ) -> None:
-    """Print targets with intervals and published medians, causes of failure, and where everything is."""
+    """Print targets (if wanted) with intervals and published medians, causes of failure, and where everything is."""
     rows = store.rows_of(seeds)
     loaded = f", {len(report.loaded)} of them loaded" if report.loaded else ""
     failed = f", {len(report.failures)} failed" if report.failures else ""
@@ -74,7 +75,7 @@ def print_summary(
         f"({span}{loaded}{failed})",
         highlight=False,
     )
-    if rows:
+    if rows and targets:
         console.print(_one_run(system, rows[0]) if len(seeds) == 1 else _targets(system, rows))
         _print_causes(console, rows)
         if system.targets.published:

@@ -3,7 +3,9 @@
 from formicarium.compiled import compiled
 from formicarium.robots.footbot import ENTRIES
 
-HEAD_BYTES = 54  # eleven small numbers of one byte, sequence of three, five numbers of eight
+# Sequence of three bytes, five numbers of eight, and eleven bytes of small numbers: phase, aligned and linked share one
+# (three bits and one each), the own arm and the number of arms another (at most six each).
+HEAD_BYTES = 54
 LEADER_BYTES = 54  # three numbers of one byte, the clock of three, five of eight and 63 bits with one for "placed"
 ARM_BYTES = 27  # three numbers of eight bytes, three of one: the task's goes with whether the direction is known
 ENTRY_BYTES = 9  # a receiver's number and a bearing
