@@ -129,4 +129,5 @@ def test_the_guide_to_missions_is_true(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     follow("mission")
     for name in ("garden.toml", "street.csv"):  # those of the results page
-        assert (tmp_path / name).read_text() == (ROOT / "docs" / "maps" / name).read_text()
+        published = ROOT / "src" / "formicarium" / "systems" / "coverage" / "published" / "maps" / name
+        assert (tmp_path / name).read_text() == published.read_text()

@@ -22,6 +22,15 @@ def written(instance, folder):
     return path
 
 
+@pytest.fixture
+def heard():
+    """Let Ctrl-C be heard: Python leaves it ignored where a shell has put it into the background."""
+    previous = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, previous)
+
+
+@pytest.mark.usefixtures("heard")
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX systems")
 @pytest.mark.parametrize("part", ["first fit", "covering", "annealing"])
 def test_ctrl_c_ends_with_the_best_schedule_so_far(part, tmp_path, monkeypatch):
