@@ -106,3 +106,12 @@ def test_robots_that_talk_beside_their_readings_cannot_be_outside(capsys):
 def test_the_command_takes_any_system(capsys):
     assert exit_code(["onboard", "coverage", "--robots", "3", "--start", "20", "--cycles", "10"]) == 0
     assert "10 cycles" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [(["--cycles", "0"], "--cycles 0"), (["--start", "100000", "--set", "time_cap=2"], "--start 100000")],
+)
+def test_a_window_that_holds_nothing_is_refused(asked, words, capsys):
+    assert exit_code(["onboard", "coverage", "--robots", "3", *asked]) == 2
+    assert words in capsys.readouterr().err

@@ -59,11 +59,15 @@ def onboard(
     from formicarium.trial.lockstep import Lockstep
     from formicarium.trial.simulate import drain
 
+    if cycles < 1 or start < 0:
+        raise UserError(f"--start {start}, --cycles {cycles}: at least 0 and 1")
     found = find_system(system)
     if found.onboard is None or found.begin is None or found.advance is None:
         raise UserError(f"{system} does not say where its robots decide (System.onboard)")
     state = found.begin(parameters_of(found, setting, robots, tuple(set_ or ())), seed)
     found.advance(state, start)
+    if int(state.clock[0].cycle) < start:
+        raise UserError(f"--start {start}: the trial ends in cycle {int(state.clock[0].cycle)}: begin before")
     state.clock[0].event_count = 0
     other = pickle.loads(pickle.dumps(state))
     logs: list[list[np.ndarray]] = [[], []]
