@@ -85,7 +85,7 @@ def test_castes_that_are_not_the_swarm_are_told():
     assert castes_by_key(numbers, 7).tolist() == [0, 0, 0, 1, 1, 1, 1]
     with pytest.raises(ValueError, match=r"castes of \[3, 4\] robots: they must make the 8 of swarm.robots"):
         castes_by_key(numbers, 8)
-    assert system.configure(robots=1).swarm.robots == 1
+    assert len(system.begin(system.configure(robots=1), 1).robots) == 1
 
 
 @pytest.mark.parametrize("contract", CONTRACTS, ids=lambda contract: contract.__name__)

@@ -1,17 +1,22 @@
 """The exact method finds what looking at every schedule finds, and the checker accepts what it finds."""
 
+import numpy as np
 import pytest
 
 from scheduling.small import small_instance
 
 pytest.importorskip("highspy")
 
-from formicarium.scheduling import heldkarp, travel
+from formicarium.scheduling import completion, covering, heldkarp, travel
 from formicarium.scheduling.checker import check
 from formicarium.scheduling.clock import Clock, OutOfTime
+from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.diving import dive
 from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
 from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.model import solve_model
+from formicarium.scheduling.packing import ticks_of
+from formicarium.scheduling.problem import problem_of
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.schedule import travel_cost
 from formicarium.scheduling.solver import solve
@@ -128,3 +133,23 @@ def test_a_hundred_tasks_end_in_time(number):
     answer = solve(instance, "time", "printed", 2.0, processor_time=True)
     assert answer.schedule is not None and answer.bound <= answer.value
     assert answer.seconds < 4.0
+
+
+@pytest.mark.parametrize(("number", "density"), [(1, 0.2), (2, 0.1), (5, 0.05)])
+def test_the_way_of_many_tasks_proves_the_same_time(number, density, monkeypatch):
+    """Pricing part by part and prices from the interior, then a dive, where otherwise more than 150 tasks begin."""
+    instance = draw_instance(number, density, 900)
+    known = solve(instance, "time", "printed")
+    monkeypatch.setattr(covering, "MANY", 0)
+    monkeypatch.setattr(completion, "MANY", 0)
+    answer = solve(instance, "time", "printed", 60.0, processor_time=True)
+    assert known.proven and answer.bound <= known.value <= answer.value
+    assert answer.bound >= 0.9 * known.value and not check(instance, answer.schedule, "printed").faults
+    problem, clock = problem_of(instance, Reach.PRINTED), Clock(60.0)
+    sets = covering.Covering(problem, clock)
+    lengths = [covering.Layer(int(ticks), 0) for ticks in sorted(set(problem.ticks))]
+    relaxed = sets.relax(np.arange(problem.size), lengths, float("inf"), 10.0)
+    slots = dive(problem, sets.sets, relaxed.gains, 30.0, clock)
+    assert sorted(task for slot in slots for task in slot) == list(range(problem.size))
+    assert all(Places(problem).deploy(np.array(slot)) is not None for slot in slots)
+    assert known.value <= ticks_of(problem, slots) * problem.unit <= 1.5 * known.value
