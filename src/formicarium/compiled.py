@@ -202,10 +202,12 @@ class Compiled:
 
 
 def _njit(function: Callable[..., Any], kind: str, **more: bool) -> Any:
-    options: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
-    options |= {"no_cfunc_wrapper": True, **more}
+    file = Path(function.__code__.co_filename)
+    own = not file.is_relative_to(PACKAGE)
+    options: dict[str, Any] = {"fastmath": False, "_nrt": False, "no_cfunc_wrapper": True, **more}
+    options |= {"error_model": "python", "boundscheck": True} if own else {"error_model": "numpy"}
     dispatcher = numba.njit(**options)(function)
-    if Path(function.__code__.co_filename).is_file():
+    if file.is_file():
         dispatcher._cache = SharedCache(function, kind)
     return dispatcher
 
@@ -252,6 +254,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     Floating point is strict (no fused or re-ordered arithmetic), so compiled and interpreted runs agree to
     the last bit as long as the function avoids ``math.hypot``. Compiled functions own no memory: they work on
     arrays handed to them and may not make new ones, which saves counting references to every array of a state
-    at every call (measured in docs/why.md). Code that is typed into a session has no file and is not kept.
+    at every call (measured in docs/why.md). A reader's functions are checked: as in plain Python, an index beyond
+    an array and a division by zero are errors. Code that is typed into a session has no file and is not kept.
     """
     return function if INTERPRETED else Compiled(function)

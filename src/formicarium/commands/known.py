@@ -30,11 +30,12 @@ def parameters_of(system: System, setting: int | None, robots: int | None, setti
         UserError: if one of them is not allowed.
     """
     given = {"setting": setting, "robots": robots}
-    options = " ".join(f"--{name} {value}" for name, value in given.items() if value is not None)
+    said = [f"--{name} {value}" for name, value in given.items() if value is not None]
+    options = f"{' '.join(said)}: " if said else ""
     try:
         parameters = system.configure(setting=setting, robots=robots)
     except ValidationError as error:
-        raise UserError(f"{options}: {in_words(error)}") from error
+        raise UserError(f"{options}{in_words(error)}") from error
     except ValueError as error:
-        raise UserError(f"{options}: {error}") from error
+        raise UserError(f"{options}{error}") from error
     return with_settings(parameters, settings)

@@ -65,6 +65,11 @@ def failing(system: System, texts: list[str]) -> System:
         raise UnknownSystem(f"{name}: {system.name} has no begin, advance and watching, so nothing can fail in it")
     plain_begin, plain_advance, watching = system.begin, system.advance, system.watching
 
+    def configure(**arguments: Any) -> Any:
+        parameters = system.configure(**arguments)
+        begin(parameters, 0)  # a robot that is not there is told before the first run
+        return parameters
+
     def begin(parameters: Any, seed: int, **options: Any) -> Any:
         state = plain_begin(parameters, seed, **options)
         cycle_time = watching.scene(parameters, state).cycle_time
@@ -125,6 +130,7 @@ def failing(system: System, texts: list[str]) -> System:
     return system._replace(
         name=name,
         summary=f"{system.summary}; with failures: {', '.join(texts)}",
+        configure=configure,
         run=run,
         begin=begin,
         advance=advance,

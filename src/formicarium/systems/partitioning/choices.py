@@ -10,7 +10,7 @@ from formicarium.systems.partitioning.hierarchy import (
     way_of,
 )
 from formicarium.systems.partitioning.memory import NEVER, Area, Deed, Estimate, Label
-from formicarium.systems.partitioning.parameters import METHODS
+from formicarium.systems.partitioning.parameters import ALWAYS_PARTITION, NEVER_PARTITION
 from formicarium.systems.partitioning.strategy import (
     explored,
     giving_up_probability,
@@ -18,9 +18,6 @@ from formicarium.systems.partitioning.strategy import (
     renewed,
     steepness_of,
 )
-
-NEVER_PARTITION = METHODS.index("never")
-ALWAYS_PARTITION = METHODS.index("always")
 
 
 @compiled

@@ -15,11 +15,8 @@ task is cut is drawn by equation 1 too, one cache's parts against the other's.
 from formicarium.compiled import compiled
 from formicarium.streams import advanced, uniform
 from formicarium.systems.partitioning.memory import Area, Label, Way
-from formicarium.systems.partitioning.parameters import METHODS
+from formicarium.systems.partitioning.parameters import ALWAYS_PARTITION, NEVER_PARTITION
 from formicarium.systems.partitioning.strategy import partition_probability, renewed, steepness_of
-
-NEVER_PARTITION = METHODS.index("never")
-ALWAYS_PARTITION = METHODS.index("always")
 
 
 @compiled

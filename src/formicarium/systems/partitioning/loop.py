@@ -12,7 +12,6 @@ from formicarium.trial.wheeled import act, move, sense
 @compiled
 def run(state, cycles):
     """Advance a trial by so many control cycles."""
-    clock = state.clock[0]
     for _ in range(cycles):
         # Every robot reads its sensors, all at the same instant.
         sense(state)
@@ -34,25 +33,28 @@ def run(state, cycles):
         if state.strategy[0].social_weight > 0.0:
             talk(state)
 
-        # Wheels turn, bodies move and are in each other's way.
-        act(state)
-        move(state)
+        # Wheels turn, bodies push, source, nest and cache notice who is inside, observers write it down.
+        go_on(state)
 
-        # Source, nest and cache notice who is inside.
-        serve_depots(
-            state.depots,
-            state.pairs,
-            state.lights,
-            state.grips,
-            state.world.bodies,
-            state.interfacing,
-            clock.cycle,
-            state.world.settings[0].cycle_time,
-        )
 
-        # The observers write down what has happened.
-        note(state)
-        clock.cycle += 1
+@compiled
+def go_on(state):
+    """Let the world go on from what the robots command, to the next cycle."""
+    clock = state.clock[0]
+    act(state)
+    move(state)
+    serve_depots(
+        state.depots,
+        state.pairs,
+        state.lights,
+        state.grips,
+        state.world.bodies,
+        state.interfacing,
+        clock.cycle,
+        state.world.settings[0].cycle_time,
+    )
+    note(state)
+    clock.cycle += 1
 
 
 @compiled

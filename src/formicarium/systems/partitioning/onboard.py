@@ -2,31 +2,9 @@
 
 from typing import Any
 
-from formicarium.compiled import compiled
-from formicarium.devices.depot import serve_depots
-from formicarium.systems.partitioning.measures import note
+from formicarium.systems.partitioning.loop import go_on
 from formicarium.trial.onboard import Onboard
-from formicarium.trial.wheeled import act, move, sense
-
-
-@compiled
-def after(state):
-    """Let the world go on from the commands: act, move, serve, note, as in ``loop.run``."""
-    clock = state.clock[0]
-    act(state)
-    move(state)
-    serve_depots(
-        state.depots,
-        state.pairs,
-        state.lights,
-        state.grips,
-        state.world.bodies,
-        state.interfacing,
-        clock.cycle,
-        state.world.settings[0].cycle_time,
-    )
-    note(state)
-    clock.cycle += 1
+from formicarium.trial.wheeled import sense
 
 
 def tables(state: Any) -> tuple[Any, ...]:
@@ -40,4 +18,4 @@ def tables(state: Any) -> tuple[Any, ...]:
     return state.behaviour, state.strategy, state.chart, state.epuck
 
 
-ONBOARD = Onboard("formicarium.systems.partitioning.behaviour:decide", tables, sense, after)
+ONBOARD = Onboard("formicarium.systems.partitioning.behaviour:decide", tables, sense, go_on)

@@ -122,6 +122,7 @@ class CacheTable(Table):
 
 
 METHODS = ("adaptive", "never", "always")
+NEVER_PARTITION, ALWAYS_PARTITION = METHODS.index("never"), METHODS.index("always")
 MODES = ("per_draw", "threshold")
 
 
