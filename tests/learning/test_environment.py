@@ -2,6 +2,7 @@
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -187,6 +188,13 @@ def test_wheels_are_bounded_by_their_limit_and_a_vector_is_as_good_as_names():
     assert (np.asarray(env.swarm.robots["left_path"]) == pytest.approx(0.005)) and np.allclose(
         env.swarm.robots["right_path"], 0.012
     )
+
+
+def test_wheels_of_each_caste_are_bounded_by_its_own_limit(monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "docs" / "examples"))
+    env = made("example_04_two_castes:SYSTEM", act=("left",))
+    limits = {agent: float(env.action_space(agent)["left"].high[0]) for agent in env.possible_agents}
+    assert limits == {"robot_1": 0.12, "robot_2": 0.05, "robot_3": 0.05, "robot_4": 0.05}
 
 
 def test_a_reward_is_one_for_all_or_one_a_robot():

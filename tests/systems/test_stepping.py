@@ -1,13 +1,14 @@
 """Errors of a behaviour name file, line, robot and cycle: the laid-out system with one line made wrong."""
 
 import os
+import re
 import subprocess
 import sys
 
 import pytest
 
 from formicarium.commands.laying_out import lay_out
-from formicarium.systems.diagnosis import lines_of, way_out
+from formicarium.systems.diagnosis import changed, lines_of, way_out
 
 PROGRAM = """
 import sys
@@ -72,6 +73,43 @@ def test_a_message_of_the_compiler_is_told_by_its_lines_in_the_readers_files(tmp
 
 
 def test_the_way_out_is_the_command_that_stops_there():
-    said = way_out("my-swarm", 7, "cycle 33, robot 232 never ends its decision:\n  behaviour.py, line 4")
-    assert "formicarium debug my-swarm --seed 7 --cycle 33 --robot 232 " in said
-    assert way_out("my-swarm", 7, "cycle 33:\n  loop.py, line 4") == ""
+    found = "cycle 33, robot 232 never ends its decision:\n  behaviour.py, line 4"
+    assert "formicarium debug my-swarm --seed 7 --cycle 33 --robot 232\n" in way_out("my-swarm", 7, found, [])
+    said = way_out("my-swarm", 7, found, ["swarm.robots=5", "arena.plan=my room.toml"])
+    assert " --robot 232 --set swarm.robots=5 --set 'arena.plan=my room.toml'\n" in said
+    assert way_out("my-swarm", 7, "cycle 33:\n  loop.py, line 4", []) == ""
+
+
+def test_what_differs_from_the_usual_is_said_as_one_would_type_it():
+    usual = {"swarm": {"robots": 20, "deaths": [], "end": None}, "arena": {"plan": ""}}
+    chosen = {"swarm": {"robots": 5, "deaths": [[3, 20.0]], "end": None}, "arena": {"plan": "room.toml"}}
+    assert changed(usual, chosen) == ["swarm.robots=5", "swarm.deaths=[[3,20.0]]", "arena.plan=room.toml"]
+    assert changed(usual, usual) == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ("reading.proximity[reading.cycle - 122]", "IndexError: index 8 is out of bounds"),
+        ("reading.proximity[0] / (reading.cycle - 130)", "RuntimeWarning: divide by zero"),  # NumPy's number
+        ("1.0 / float(reading.cycle - 130)", "ZeroDivisionError: "),  # Python's
+    ],
+)
+def test_what_compiled_code_checks_is_told_as_plain_python_tells_it(tmp_path, monkeypatch, wrong, said):
+    monkeypatch.chdir(tmp_path)
+    folder, module = lay_out("wrong")
+    file = folder / module / "behaviour.py"
+    line = f"        command.left = {wrong}"
+    file.write_text(file.read_text().replace(LINE, f"{LINE}    if reading.cycle == 130:\n{line}\n"))
+    number = file.read_text().splitlines().index(line) + 1
+    program = [sys.executable, "-m", "formicarium.commands.main"]
+    plain = {name: value for name, value in os.environ.items() if name != "FORMICARIUM_INTERPRETED"}
+    run = [*program, "run", "wrong", "--robots", "3", "--set", "time_cap=20"]
+    done = subprocess.run(run, cwd=folder, env=plain, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and "wrong, seed 1, cycle 130, robot " in done.stderr, done.stderr
+    assert f"behaviour.py, line {number}, in decide" in done.stderr and said in done.stderr
+    command = re.search(r"Way out: formicarium (debug .*)\n", done.stderr)[1].split()
+    stopped = subprocess.run(
+        [*program, *command], cwd=folder, env=plain, input="c\n", capture_output=True, text=True, check=False
+    )
+    assert said.partition(":")[0] in stopped.stdout + stopped.stderr

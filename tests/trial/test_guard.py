@@ -26,6 +26,7 @@ def run(deed, patience="1"):
 
 def test_a_run_that_hangs_is_explained_and_ended():
     done = run("while True: pass")
+    assert "no look at the trial for 0.25 s of computing since cycle 200" in done.stderr
     assert "after cycle 200 it hangs: no control cycle has ended for 1 s of computing" in done.stderr
     assert done.returncode == -signal.SIGTERM and "well" not in done.stdout
 

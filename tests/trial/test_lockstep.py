@@ -55,10 +55,12 @@ def test_ten_windows_of_a_minute(name):
 
 def test_only_the_master_is_told_of_tasks():
     _, state = state_of("coverage", 5, 0)
-    charts = [own(state.charts, i) for i in range(5)]
+    charts = [own(state.charts, i, 5) for i in range(5)]
     assert [bool(chart["slot_count"][0]) for chart in charts] == [bool(key == 0) for key in state.robots.key]
-    assert all(len(chart) == 1 for chart in charts) and own(state.behaviour, 3) is not None
-    assert own(state.behaviour, 3).tobytes() == np.asarray(state.behaviour).tobytes()
+    assert all(len(chart) == 1 for chart in charts) and own(state.behaviour, 3, 5) is not None
+    assert own(state.behaviour, 3, 5).tobytes() == np.asarray(state.behaviour).tobytes()
+    with pytest.raises(ValueError, match="a table of 5 records for 4 robots: must be one for all, or one each"):
+        own(state.charts, 3, 4)
 
 
 @pytest.mark.parametrize("name", ["partitioning", "coverage"])

@@ -12,7 +12,7 @@ from typing import Any
 from formicarium.commands.errors import UserError
 from formicarium.commands.known import find_system, parameters_of
 from formicarium.commands.runs import find_run
-from formicarium.systems.registry import System, resolve
+from formicarium.systems.registry import System, names, resolve
 from formicarium.views.live.session import Session
 
 PROGRAM = (
@@ -42,7 +42,7 @@ def debug_run(place: str, cycle: int, robot: int | None, cycles: int, seed: int 
 
 def state_of(place: str, cycle: int, seed: int | None, choice: Choice) -> tuple[str, Any]:
     """Return the name of a run's system and its state before a cycle."""
-    if Path(place).exists():
+    if Path(place).exists() and place not in names():  # a system of one's own lives in a folder of its name
         if any(choice):
             raise UserError("--set, --setting and --robots go with the name of a system: a stored run has its numbers")
         run = find_run(place, seed)

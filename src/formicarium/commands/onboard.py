@@ -22,8 +22,9 @@ def onboard(
     """Run every robot's controller as an interpreted process of its own, as on a real robot, in lock step.
 
     Each is fed with nothing but its readings, over a local socket, and answers
-    with commands. The events are held against those of the compiled trial:
-    exit code 0 if they are the same bytes, 1 if not or if a controller was lost.
+    with commands. Events and the whole state at the end are held against those
+    of the compiled trial: exit code 0 if they are the same bytes, 1 if not or if
+    a controller was lost.
 
     Examples:
 
@@ -56,6 +57,7 @@ def onboard(
 
     from formicarium.commands.errors import UserError
     from formicarium.commands.known import find_system, parameters_of
+    from formicarium.contracts.states import differences
     from formicarium.trial.lockstep import Lockstep
     from formicarium.trial.simulate import drain
 
@@ -85,6 +87,9 @@ def onboard(
             logs[1].append(drain(other))
         lost = controllers.lost
     here, there = (np.concatenate(log) for log in logs)
-    same = here.tobytes() == there.tobytes()
-    print(f"{int(state.clock[0].cycle) - start} cycles, {len(there)} events: {'the same' if same else 'NOT the same'}")
-    return 0 if same and not lost else 1
+    apart = differences(state._replace(events=other.events), other)
+    if here.tobytes() != there.tobytes():
+        apart.insert(0, "events")
+    said = f"NOT the same: {', '.join(apart[:5])}" if apart else "the same, and so is every number at the end"
+    print(f"{int(state.clock[0].cycle) - start} cycles, {len(there)} events: {said}")
+    return 0 if not apart and not lost else 1

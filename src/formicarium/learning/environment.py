@@ -58,8 +58,7 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         self._speeds = [name for name in commands.dtype.names or () if commands.dtype[name].base.kind == "f"]
         whole = set(self._acted) == set(names_of(commands.dtype))
         self._decide = None if whole else _function(self._onboard.decide)
-        limits = dict.fromkeys(self._speeds, _speed_limit(self._onboard.tables(self.swarm)))
-        self._boxes = boxes_of(commands.dtype, self._acted, limits)
+        self._boxes = boxes_of(commands.dtype, self._acted, {})
         self.possible_agents = list(self._places)
         self.agents: list[str] = []
         self.observation_spaces = {
@@ -67,8 +66,8 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
             for agent in self.possible_agents
         }
         self.action_spaces = {
-            agent: spaces.Dict(tuple(boxes_of(commands.dtype, self._acted, limits).items()))
-            for agent in self.possible_agents
+            agent: spaces.Dict(tuple(boxes_of(commands.dtype, self._acted, self._limits(i)).items()))
+            for agent, i in self._places.items()
         }
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
@@ -134,7 +133,12 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
         keys = np.asarray(self.swarm.robots["key"])
         self._places = {f"robot_{keys[i] + 1}": int(i) for i in np.argsort(keys)}
         tables = self._onboard.tables(self.swarm)
-        self._tables = [[own(table, i).view(np.recarray)[0] for table in tables] for i in range(len(keys))]
+        self._tables = [[own(table, i, len(keys)).view(np.recarray)[0] for table in tables] for i in range(len(keys))]
+
+    def _limits(self, i: int) -> dict[str, float]:
+        """Return the speeds that robot ``i``'s wheels are said to reach (m/s) in what it is told; none if none is."""
+        told = [table["speed_limit"] for table in self._tables[i] if "speed_limit" in (table.dtype.names or ())]
+        return dict.fromkeys(self._speeds, float(told[0])) if told else {}
 
     def _observations(self, agents: Sequence[str]) -> dict[str, Fields]:
         columns = columns_of(blanked(self.swarm.readings), self._observed)
@@ -184,9 +188,3 @@ class SwarmEnvironment(ParallelEnv[str, Fields, Fields]):
 def _function(place: str) -> Callable[..., None]:
     module, _, name = place.partition(":")
     return getattr(import_module(module), name)
-
-
-def _speed_limit(tables: Sequence[np.ndarray]) -> float:
-    """Return the speed, m/s, that the robots' wheels are said to reach in what they are told; infinite if none is."""
-    told = [table for table in map(np.asarray, tables) if "speed_limit" in (table.dtype.names or ())]
-    return float(told[0]["speed_limit"].max()) if told else float("inf")

@@ -8,8 +8,10 @@ import json
 import os
 import pickle
 import re
+import shlex
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,19 +50,33 @@ def explain(place: str, parameters: str, seed: int, cycle: int, what: str) -> st
         state = system.begin(system.parameters.model_validate_json(parameters), seed)  # type: ignore[misc]
     found = interpreted(place, state)
     if found:
-        return f"{head}, {found}{way_out(system.name, seed, found)}"
+        settings = changed(system.configure().model_dump(mode="json"), json.loads(parameters))
+        return f"{head}, {found}{way_out(system.name, seed, found, settings)}"
     if "Failed in nopython mode" in what or "numba" in what or "TypingError" in what:
         return f"{head}: the compiler does not understand{lines_of(what)}\n{ADVICE}"
     return f"{head}: {what} after cycle {reached}; plain Python goes on from there without complaint.\n{ADVICE}"
 
 
-def way_out(name: str, seed: int, found: str) -> str:
+def changed(usual: Mapping[str, Any], chosen: Mapping[str, Any], prefix: str = "") -> list[str]:
+    """Return what must be said after --set to come from one set of parameters to another: "group.name=value"."""
+    found = []
+    for name, value in chosen.items():
+        if isinstance(value, Mapping):
+            found += changed(usual[name], value, f"{prefix}{name}.")
+        elif value != usual[name]:
+            text = value if isinstance(value, str) else json.dumps(value, separators=(",", ":"))
+            found.append(f"{prefix}{name}={text}")
+    return found
+
+
+def way_out(name: str, seed: int, found: str, settings: Sequence[str]) -> str:
     """Return the command that stops where a behaviour fails; empty if no robot's cycle is known."""
     place = WHERE.match(found)
     if place is None:
         return ""
-    command = f"formicarium debug {name} --seed {seed} --cycle {place['cycle']} --robot {place['robot']}"
-    return f"\nWay out: {command} stops there, line by line; add the run's own --robots, --setting and --set."
+    command = ["formicarium", "debug", name, "--seed", str(seed), "--cycle", place["cycle"], "--robot", place["robot"]]
+    command += [word for setting in settings for word in ("--set", setting)]
+    return f"\nWay out: {shlex.join(command)}\nstops there, line by line."
 
 
 def lines_of(message: str) -> str:

@@ -30,15 +30,19 @@ class Lockstep(Controllers):
             TimeoutError: if not all have reported in time.
             ValueError: if robots of such a trial cannot be told what they need; no process is started then.
         """
-        onboard.tables(state)
+        for table in onboard.tables(state):
+            own(table, 0, len(state.robots))
         super().__init__(onboard, state, *told, **options)
 
     def _brief(self, i: int, line: socket.socket) -> None:
         """Tell a controller its function, the layouts of its records, its memory and its tables."""
-        shared = self.onboard
-        self.onboard = shared._replace(tables=lambda state: tuple(own(table, i) for table in shared.tables(state)))
-        super()._brief(i, line)
-        self.onboard = shared
+        shared, robots = self.onboard, len(self.state.robots)
+        told = tuple(own(table, i, robots) for table in shared.tables(self.state))
+        self.onboard = shared._replace(tables=lambda state: told)
+        try:
+            super()._brief(i, line)
+        finally:
+            self.onboard = shared
 
     def _decide(self) -> None:
         """Send every robot that is alive and heard its Reading, then take every answer: they think at the same time."""
@@ -89,9 +93,15 @@ class Lockstep(Controllers):
             commands["infrared"][i] = SILENCE
 
 
-def own(table: Any, i: int) -> np.ndarray:
-    """Return what robot ``i`` is told of a table: all of it if it is one for all, else its own record."""
+def own(table: Any, i: int, robots: int) -> np.ndarray:
+    """Return what robot ``i`` is told of a table: its own record, or the one that is for all.
+
+    Raises:
+        ValueError: if the table has neither one record nor one a robot.
+    """
     records = np.asarray(table)
+    if len(records) not in (1, robots):
+        raise ValueError(f"a table of {len(records)} records for {robots} robots: must be one for all, or one each")
     return records[i : i + 1] if len(records) > 1 else records
 
 

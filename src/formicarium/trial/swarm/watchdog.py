@@ -27,13 +27,18 @@ def processor_time(process: int) -> float:
 def explain(command: list[str], cycle: str, what: str) -> None:
     """Write to stderr what is known of the run."""
     done = subprocess.run([*command, cycle, what], stdout=subprocess.PIPE, text=True, check=False)
-    sys.stderr.write(f"\nformicarium: {done.stdout.strip() or what}\n")
+    say(done.stdout.strip() or what)
+
+
+def say(what: str) -> None:
+    """Write to stderr, below what the run's progress has left there."""
+    sys.stderr.write(f"\nformicarium: {what}\n")
     sys.stderr.flush()
 
 
 def watch(process: int, patience: float, command: list[str]) -> None:
     """Read lines until the run says that it is over, hangs, or is gone."""
-    cycle, heard = "0", processor_time(process)
+    cycle, heard, warned = "0", processor_time(process), False
     while True:
         ready, _, _ = select.select([0], [], [], 1.0)
         if ready:
@@ -43,7 +48,11 @@ def watch(process: int, patience: float, command: list[str]) -> None:
             cycle = line.split()[-1]
             if cycle == "over":
                 return None
-            heard = processor_time(process)
+            heard, warned = processor_time(process), False
+        elif not warned and processor_time(process) - heard > 0.25 * patience:
+            warned = True
+            say(f"no look at the trial for {0.25 * patience:g} s of computing since cycle {cycle}; "
+                f"it is ended and explained after {patience:g} s (FORMICARIUM_PATIENCE)")  # fmt: skip
         elif processor_time(process) - heard > patience:
             explain(command, cycle, f"hangs: no control cycle has ended for {patience:g} s of computing")
             os.kill(process, signal.SIGTERM)
