@@ -130,18 +130,21 @@ def test_five_hundred_instances(part):
 def test_a_hundred_tasks_end_in_time(number):
     """Seconds of the processor: no part of the search may be begun that does not look at the clock again in time."""
     instance = draw_instance(number, 0.05, 900001)
+    solve(instance, "time", "printed", 0.5, processor_time=True)  # compiles
     answer = solve(instance, "time", "printed", 2.0, processor_time=True)
     assert answer.schedule is not None and answer.bound <= answer.value
     assert answer.seconds < 4.0
 
 
+@pytest.mark.parametrize("few", ["SOME", "MANY"])
 @pytest.mark.parametrize(("number", "density"), [(1, 0.2), (2, 0.1), (5, 0.05)])
-def test_the_way_of_many_tasks_proves_the_same_time(number, density, monkeypatch):
-    """Pricing part by part and prices from the interior, then a dive, where otherwise more than 150 tasks begin."""
+def test_the_ways_of_more_tasks_prove_the_same_time(number, density, few, monkeypatch):
+    """Dives where otherwise more than 40 tasks begin; from 150 on pricing part by part, prices from the interior."""
     instance = draw_instance(number, density, 900)
     known = solve(instance, "time", "printed")
-    monkeypatch.setattr(covering, "MANY", 0)
-    monkeypatch.setattr(completion, "MANY", 0)
+    for name in {few, "SOME"}:
+        monkeypatch.setattr(covering, name, 0)
+        monkeypatch.setattr(completion, name, 0)
     answer = solve(instance, "time", "printed", 60.0, processor_time=True)
     assert known.proven and answer.bound <= known.value <= answer.value
     assert answer.bound >= 0.9 * known.value and not check(instance, answer.schedule, "printed").faults
@@ -149,7 +152,10 @@ def test_the_way_of_many_tasks_proves_the_same_time(number, density, monkeypatch
     sets = covering.Covering(problem, clock)
     lengths = [covering.Layer(int(ticks), 0) for ticks in sorted(set(problem.ticks))]
     relaxed = sets.relax(np.arange(problem.size), lengths, float("inf"), 10.0)
-    slots = dive(problem, sets.sets, relaxed.gains, 30.0, clock)
-    assert sorted(task for slot in slots for task in slot) == list(range(problem.size))
-    assert all(Places(problem).deploy(np.array(slot)) is not None for slot in slots)
-    assert known.value <= ticks_of(problem, slots) * problem.unit <= 1.5 * known.value
+    for draws in (None, np.random.default_rng(1)):
+        slots = dive(problem, sets, relaxed.gains, 2, float("inf"), 30.0, draws)
+        assert sorted(task for slot in slots for task in slot) == list(range(problem.size))
+        assert all(Places(problem).deploy(np.array(slot)) is not None for slot in slots)
+        assert known.value <= ticks_of(problem, slots) * problem.unit <= 1.5 * known.value
+    assert dive(problem, sets, relaxed.gains, 2, known.value / problem.unit, 30.0, None) == []  # none is better
+    assert dive(problem, sets, relaxed.gains, 2, float("inf"), 0.0, None) == []  # out of time

@@ -9,16 +9,19 @@ from typing import NamedTuple
 import numpy as np
 
 from formicarium.scheduling.clock import Clock, OutOfTime
-from formicarium.scheduling.covering import MANY, Cover, Covering, Layer, Set
+from formicarium.scheduling.covering import MANY, SOME, Cover, Covering, Layer, Set
 from formicarium.scheduling.deployment import Places
 from formicarium.scheduling.diving import dive
 from formicarium.scheduling.enumeration import sets_below
 from formicarium.scheduling.packing import Slots, choose, first_fit, ticks_of
 from formicarium.scheduling.precedence import longest_chain
 from formicarium.scheduling.problem import Problem
+from formicarium.streams import generator
 
 MOST_ENTRIES = 20_000_000  # of an enumeration: sets times tasks
 SHARE = 0.5  # of the time that is left, for all layers together
+LOOKS = 8  # for sets, after each step of a dive
+FEW, FURTHER = 20, 150  # dives in a row
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 
 
@@ -47,13 +50,27 @@ class Search:
         self._tell("first fit")
         covering = Covering(self.problem, self.clock)
         covering.add(self.best.slots)
+        gains = self._dive_first(covering) if self.problem.size > SOME and not len(self.problem.before) else None
+        if not self._open():
+            return
         layers, cover = self._relax(covering)
-        if self._open() and self.problem.size > MANY and not len(self.problem.before):
-            self._dive(covering, cover)
         if self._open():
             self._choose(covering, layers)
+        if gains is not None:
+            self._dive(covering, gains, range(FEW, FURTHER))
         if self._open() and cover.converged:
             self._enumerate(cover, layers)
+
+    def _dive_first(self, covering: Covering) -> np.ndarray:
+        """Bound the time without the layers and dive; return the tasks' gains, (T,)."""
+        lengths = [int(ticks) for ticks in np.unique(self.problem.ticks)]
+        whole = lengths[0] if len(lengths) == 1 else 1
+        layers = [Layer(length, 0) for length in lengths]
+        everything = np.arange(self.problem.size)
+        cover = covering.relax(everything, layers, self.best.value, self._share(1), whole)
+        self._raise_bound(cover.bound, "covering")
+        self._dive(covering, cover.gains, range(FEW))
+        return cover.gains
 
     def _open(self) -> bool:
         return self.best.bound < self.best.value
@@ -102,11 +119,16 @@ class Search:
         self._tell(part)
         self.clock.check()
 
-    def _dive(self, covering: Covering, cover: Cover) -> None:
-        problem = self.problem
-        slots = dive(problem, covering.sets, cover.gains, CHOOSING * self.clock.left, self.clock)
-        if sum(len(slot) for slot in slots) == problem.size:
-            self._improve(slots, "diving")
+    def _dive(self, covering: Covering, gains: np.ndarray, numbers: range) -> None:
+        """Dive again and again, each time with other preferences; the very first has none."""
+        problem, until = self.problem, self.clock.seconds + CHOOSING * self.clock.left
+        looks = LOOKS if problem.size <= MANY else 0
+        for number in numbers if looks else numbers[:1]:
+            if not self._open() or self.clock.seconds > until:
+                return
+            draws = generator(number, "dives") if number else None
+            slots = dive(problem, covering, gains, looks, self.best.value, until, draws)
+            self._improve(slots or None, "diving")
 
     def _choose(self, covering: Covering, layers: list[Layer], share: float = CHOOSING) -> None:
         seconds = min(60.0, share * self.clock.left)

@@ -17,6 +17,7 @@ from formicarium.scheduling.problem import Problem
 EPSILON = 1e-7
 MOST_BOXES = 8_100_000  # of a proof that there are no better sets
 BOXES_A_SECOND = 6_000_000  # and task, at least: a look that could take longer than there is time is not begun
+SOME = 40  # tasks; from there on pricing looks closely at once
 MANY = 150  # tasks; from there on every part of the region is asked for its sets, and prices lie in the interior
 
 Set = tuple[int, ...]  # tasks, sorted
@@ -38,15 +39,23 @@ class Cover(NamedTuple):
     converged: bool  # no set is worth more than it costs
 
 
+class Sketch(NamedTuple):
+    """A relaxation that no proof rests on."""
+
+    value: float  # ticks
+    weights: dict[Set, float]  # sets of the programme, and how much of each it uses
+
+
 class Look(NamedTuple):
     """How closely better sets are looked for."""
 
     side: int  # parts of the region along each side
     boxes: int  # of the deployment point, in each part, at first
     closer: int  # times as many after a look that found few
+    glance: int  # boxes of a look that no proof rests on
 
 
-FEW_TASKS, MANY_TASKS = Look(1, 300, 30), Look(16, 50, 3)
+FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 50, 3, 50)
 
 
 class Covering:
@@ -57,7 +66,7 @@ class Covering:
         self.problem = problem
         self.clock = clock
         self.sets: dict[Set, None] = {(task,): None for task in range(problem.size)}
-        self._look = MANY_TASKS if problem.size > MANY else FEW_TASKS
+        self._look = MANY_TASKS if problem.size > MANY else SOME_TASKS if problem.size > SOME else FEW_TASKS
         self._prices = Prices(problem)
         self._parts = _parts(problem.region, self._look.side)
 
@@ -92,6 +101,27 @@ class Covering:
                 return best
             if found:
                 prices = programme.solve()
+
+    def sketch(self, tasks: np.ndarray, known: Iterable[Set], rounds: int, until: float) -> "Sketch":
+        """Cover tasks in the relaxation as far as sets suffice that are known or found in a few quick looks.
+
+        Args:
+            tasks: to be covered.
+            known: sets that are looked at; what they hold of other tasks does not matter.
+            rounds: looks for better sets, at most.
+            until: on the clock; no look is begun later.
+        """
+        layers = [Layer(int(ticks), 0) for ticks in np.unique(self.problem.ticks[tasks])]
+        programme = _Programme(self.problem, tasks, layers, known, self.problem.size > MANY)
+        prices = programme.solve()
+        for _ in range(rounds):
+            if self.clock.seconds > until:
+                break
+            found, _ = self._price(programme, prices, self._look.glance)
+            if not found:
+                break
+            prices = programme.solve()
+        return Sketch(prices.value, programme.weights())
 
     def _most(self, until: float) -> float:
         return min(MOST_BOXES, BOXES_A_SECOND / self.problem.size * (until - self.clock.seconds) / len(self._parts))
@@ -131,7 +161,8 @@ class _Programme:
         self._tasks, self._row = tasks, {int(task): number for number, task in enumerate(tasks)}
         self._least = np.array([1.0] * len(tasks) + [layer.least for layer in layers])
         self._linear = Linear(self._least, interior)
-        self._known: set[tuple[Set, int]] = set()
+        self._known: dict[tuple[Set, int], None] = {}
+        self._amounts = np.zeros(0)
         for chosen in list(sets):
             part = tuple(t for t in chosen if t in self._row)
             if part:
@@ -143,17 +174,22 @@ class _Programme:
         """Add a column unless it is there."""
         if (chosen, level) in self._known:
             return False
-        self._known.add((chosen, level))
+        self._known[chosen, level] = None
         rows = [self._row[t] for t in chosen] + [len(self._tasks) + k for k in range(level + 1)]
         self._linear.add(self.levels[level], rows)
         return True
 
     def solve(self) -> _Prices:
         """Return prices at which no column is worth more than it costs, or hardly: any prices make a bound."""
-        duals = self._linear.solve()[2]
+        _, self._amounts, duals = self._linear.solve()
         gains = np.zeros(len(self.allowed[0]))
         gains[self._tasks] = duals[: len(self._tasks)]
         return _Prices(gains, np.cumsum(duals[len(self._tasks) :]), float(duals @ self._least))
+
+    def weights(self) -> dict[Set, float]:
+        """Return how much of each set was used when it was last solved; nothing of what came later."""
+        amounts = np.pad(self._amounts, (0, len(self._known) - len(self._amounts)))
+        return {chosen: float(amount) for (chosen, _), amount in zip(self._known, amounts, strict=True) if chosen}
 
 
 def _parts(region: np.ndarray, side: int) -> np.ndarray:

@@ -93,6 +93,8 @@ class Mixed:
         highs.setOptionValue("mip_rel_gap", relative_gap)
         if cutoff is not None:
             highs.setOptionValue("objective_bound", cutoff)
+        if np.isfinite(until):  # on the wall; presolve does not ask the callbacks
+            highs.setOptionValue("time_limit", max(0.0, until - clock.seconds))
         with _interruptible() as stopped:
             for event in (highs.cbMipInterrupt, highs.cbSimplexInterrupt):
                 event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.seconds > until))
