@@ -5,7 +5,7 @@ from importlib import resources
 
 import pytest
 
-from formicarium.commands import foraging
+from formicarium.commands import foraging, replacements
 from formicarium.commands.main import exit_code
 from formicarium.studies.foraging import TIMES
 from formicarium.studies.foraging_anova import GRID
@@ -45,6 +45,32 @@ def test_a_figure_is_run_and_drawn(tmp_path, capsys):
     assert "drawn from 4 of 4 runs" in capsys.readouterr().out
     assert (tmp_path / "here" / "figure-10.png").exists()
     assert len((tmp_path / "here" / "partitioning-adaptivity.csv").read_text().splitlines()) == 5
+
+
+def test_what_is_left_out_is_replaced_by_the_next_seeds(tmp_path, monkeypatch, capsys):
+    """A seed of the first cell and the first that replaces it; the second cell loses more than can be replaced."""
+    told = foraging.perform
+    bad = {(0, 121001), (0, 121005), *((1, seed) for seed in range(121001, 121100))}
+
+    class Rows:
+        def __init__(self, jobs):
+            self.jobs = jobs
+
+        def to_pylist(self):
+            return [
+                {"cell": job.cell.number, "seed": seed, "consistent": int((job.cell.number, seed) not in bad)}
+                for job in self.jobs
+                for seed in job.cell.seeds
+            ]
+
+    monkeypatch.setattr(replacements, "tidy", lambda rows, jobs: Rows(jobs))
+    monkeypatch.setattr(foraging, "perform", lambda study, request: performed.append(study) or told(study, request))
+    performed = []
+    assert exit_code(["study", "partitioning", "--figure", "10", "--runs", "4", "--out", "here", "--workers", "1"]) == 0
+    asked = [[len(job.cell.seeds) for job in study.jobs] for study in performed]
+    assert asked == [[4, 4, 4, 4], [6, 6, 4, 4]]
+    assert performed[1].jobs[0].cell.seeds == tuple(range(121001, 121007))
+    assert "drawn from 20 of 20 runs" in capsys.readouterr().out
 
 
 def test_a_figure_of_the_other_study_is_refused(capsys):

@@ -14,6 +14,7 @@ from formicarium.commands.campaign.answers import write_csv
 from formicarium.commands.campaign.sitting import Request, perform
 from formicarium.commands.campaign.study import Overrides, Study, open_study
 from formicarium.commands.errors import UserError
+from formicarium.commands.replacements import with_replacements
 from formicarium.commands.tables import events_of
 from formicarium.studies import foraging_anova, foraging_hierarchy, foraging_options, foraging_tables
 from formicarium.studies.foraging import Row, cells_of, picked
@@ -66,8 +67,15 @@ FIGURES = {
 
 def run_study(figure: str, folder: Path, runs: int | None, workers: int | None) -> int:
     """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
-    studies = [_open(name, folder, Overrides(runs)) for name in DESIGNS[figure]]
-    return max((perform(study, Request(workers=workers)) for study in studies), default=0)
+    return max((_run(_open(name, folder, Overrides(runs)), workers) for name in DESIGNS[figure]), default=0)
+
+
+def _run(study: Study, workers: int | None) -> int:
+    """Run a campaign, then the next seeds of what is left out until nothing more is."""
+    code, asked = perform(study, Request(workers=workers)), study.total
+    while (grown := with_replacements(study)).total > asked:
+        code, asked = perform(grown, Request(workers=workers)), grown.total
+    return code
 
 
 def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None) -> int:
@@ -82,7 +90,8 @@ def draw_study(figure: str, folder: Path, runs: int | None, sources: str | None)
     if figure in DRAWN:
         Console().print(f"results   {draw_implementation(figure, folder)}", highlight=False, soft_wrap=True)
         return 0
-    studies = {name: _open(name, folder, Overrides(runs, sources=sources)) for name in DESIGNS[figure]}
+    opened = {name: _open(name, folder, Overrides(runs, sources=sources)) for name in DESIGNS[figure]}
+    studies = {name: with_replacements(study) for name, study in opened.items()}
     rows = {name: _rows(study) for name, study in studies.items()}
     there = sum(map(len, rows.values()))
     if not there:
