@@ -15,6 +15,7 @@ from pydantic import create_model
 
 import random_walk
 from formicarium.campaigns import table
+from formicarium.campaigns.parts import read_part, write_part
 from formicarium.commands import work
 from formicarium.commands.main import exit_code
 
@@ -404,6 +405,45 @@ def test_a_campaign_goes_on_from_one_file_where_its_folder_is_not(tmp_path, caps
     (tmp_path / "kept.parquet").write_bytes((tmp_path / "kept.parquet").read_bytes()[:-9])
     assert exit_code(["campaign", "adopt", "study.toml", "kept.parquet", "--out", "here"]) == 2
     assert "kept.parquet is damaged" in capsys.readouterr().err
+
+
+def outdated(path, **changed):
+    """Make a packed file one of other sources, with columns changed."""
+    rows = read_part(path)
+    columns = {"identity": ["0123456789abcdef"] * len(rows), "sources": ["fedcba9876543210"] * len(rows), **changed}
+    for name, values in columns.items():
+        place = rows.column_names.index(name)
+        rows = rows.set_column(place, name, pyarrow.array(values, rows.schema.field(name).type))
+    path.unlink()
+    write_part(rows, path)
+
+
+def test_rows_of_other_sources_are_taken_over_if_a_sample_of_them_comes_out_again(tmp_path, capsys):
+    head = f'name = "walk"\nsystem = "{WALK}"\nfirst_seed = 1\nreplicates = 3\n'
+    (tmp_path / "study.toml").write_text(head + "[factors]\nrobots = [5, 9]")
+    assert campaign("run") == 0
+    campaign("collect")
+    undisturbed = table.read(tmp_path / "here" / "runs.parquet")
+    campaign("pack", "kept.parquet")
+    outdated(tmp_path / "kept.parquet")
+    shutil.rmtree(tmp_path / "here")
+    adopt = ["campaign", "adopt", "study.toml", "kept.parquet", "--out", "here"]
+    capsys.readouterr()
+    assert exit_code(adopt) == 0
+    assert "0 runs taken over, 0 were there, 6 are not in the design\n" in capsys.readouterr().out
+    assert exit_code([*adopt, "--runs", "2", "--repeat", "3"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("repeating seed") == 3 and "; 4 of other sources taken over, 3 of them repeated: the same" in said
+    assert campaign("run") == 0
+    assert "2 now" in capsys.readouterr().out
+    campaign("collect")
+    assert table.read(tmp_path / "here" / "runs.parquet").equals(undisturbed)
+    outdated(tmp_path / "kept.parquet", sequences=[7] * 6)
+    adopt[-1] = "elsewhere"
+    assert exit_code([*adopt, "--repeat", "1"]) == 2
+    said = capsys.readouterr().err
+    assert "gives another row with today's sources: sequences was 7, is" in said and "Nothing was taken over" in said
+    assert not (tmp_path / "elsewhere").exists()
 
 
 def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):

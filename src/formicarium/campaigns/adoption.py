@@ -4,11 +4,12 @@ This is how results move on when the format of a ledger changes, and how ledgers
 put together.
 """
 
+import hashlib
 import json
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pyarrow as pa
 
@@ -17,6 +18,7 @@ from formicarium.campaigns.cells import Job
 from formicarium.campaigns.files import StoreError, read_json, replacing
 from formicarium.campaigns.ledger import MANIFEST, Ledger
 from formicarium.campaigns.parts import OWN, DamagedPart, read_part
+from formicarium.campaigns.seeds import plain
 from formicarium.campaigns.writer import Writer
 
 
@@ -60,6 +62,74 @@ def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, kee
             index = found.column_names.index("factors")
             writer.add(found.set_column(index, "factors", pa.array(factors)))
     return Adopted(len(new), len(ours) - len(new), len(keys) - len(ours))
+
+
+class Repeated(NamedTuple):
+    """Rows of other sources that count as rows of today's."""
+
+    rows: pa.Table
+    seeds: list[int]  # of the runs that were repeated and came out the same
+
+
+def as_of_today(
+    jobs: Sequence[Job], folder: Path, rows: pa.Table, count: int, told: Callable[[Job, int], None]
+) -> Repeated:
+    """Return rows of other sources as rows of today's, if a sample of them comes out the same when it is repeated.
+
+    An edit that changes no result outdates every row all the same: nobody can tell by looking at hashes. The sample is
+    drawn by a hash of the seeds. A row belongs to the cell with its factors; whether all else was the same too, the
+    sample must show.
+
+    Args:
+        jobs: of the design.
+        folder: where the rows come from, for messages.
+        rows: of which those of other sources are looked at.
+        count: runs to repeat; all, if there are fewer.
+        told: called before each of them.
+
+    Raises:
+        StoreError: if a run gives another row now, or fails.
+    """
+    cells = {(_text(job.cell.factors), seed): job for job in jobs for seed in job.cell.seeds}
+    today = {key for job in jobs for key in job.keys}
+    found = {
+        place: cells[_text(json.loads(row["factors"])), row["seed"]]
+        for place, row in enumerate(rows.select(["identity", "factors", "seed"]).to_pylist())
+        if (row["identity"], row["seed"]) not in today and (_text(json.loads(row["factors"])), row["seed"]) in cells
+    }
+    others = rows.take(pa.array(list(found), pa.int64()))
+    stored = others.to_pylist()
+    sample = sorted(zip(found.values(), stored), key=lambda pair: _drawn(pair[1]))[:count]
+    for job, row in sample:
+        told(job, row["seed"])
+        _repeat(job, row, folder)
+    own: dict[str, list[Any]] = {
+        "identity": [job.configuration.identity for job in found.values()],
+        "sources": [job.configuration.sources for job in found.values()],
+    }
+    for name, values in own.items():
+        others = others.set_column(others.column_names.index(name), name, pa.array(values, OWN[name]))
+    return Repeated(others, [row["seed"] for _, row in sample])
+
+
+def _repeat(job: Job, row: dict[str, Any], folder: Path) -> None:
+    again = job.function(row["seed"], None).row
+    before = {name: value for name, value in row.items() if name not in OWN}
+    names = sorted({*before, *again})
+    if changed := [name for name in names if not table.same({name: before.get(name)}, {name: again.get(name)})]:
+        name = changed[0]
+        raise StoreError(
+            f"{folder}: seed {row['seed']} of {job.cell.label} gives another row with today's sources: "
+            f"{name} was {before.get(name)}, is {again.get(name)}. Nothing was taken over."
+        )
+
+
+def _drawn(row: dict[str, Any]) -> str:
+    return hashlib.blake2b(f"{row['factors']} {row['seed']}".encode(), digest_size=8).hexdigest()
+
+
+def _text(factors: Any) -> str:
+    return json.dumps(plain(dict(factors)), sort_keys=True)
 
 
 def _rows_of_ledger(folder: Path) -> pa.Table:
