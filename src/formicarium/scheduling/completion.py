@@ -21,7 +21,7 @@ from formicarium.streams import generator
 MOST_ENTRIES = 20_000_000  # of an enumeration: sets times tasks
 SHARE = 0.5  # of the time that is left, for all layers together
 LOOKS = 8  # for sets, after each step of a dive
-FEW, FURTHER = 20, 150  # dives in a row
+FEW, MOST_DIVES = 20, 1000  # dives in a row, and in all
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 
 
@@ -56,10 +56,15 @@ class Search:
         layers, cover = self._relax(covering)
         if self._open():
             self._choose(covering, layers)
-        if gains is not None:
-            self._dive(covering, gains, range(FEW, FURTHER))
         if self._open() and cover.converged:
             self._enumerate(cover, layers)
+        if gains is None:
+            return
+        for first in range(FEW, MOST_DIVES, FEW):
+            value = self.best.value
+            self._dive(covering, gains, range(first, first + FEW), self.clock.left)
+            if self._open() and cover.converged and self.best.value < value:  # fewer sets could do better now
+                self._enumerate(cover, layers)
 
     def _dive_first(self, covering: Covering) -> np.ndarray:
         """Bound the time without the layers and dive; return the tasks' gains, (T,)."""
@@ -69,7 +74,7 @@ class Search:
         everything = np.arange(self.problem.size)
         cover = covering.relax(everything, layers, self.best.value, self._share(1), whole)
         self._raise_bound(cover.bound, "covering")
-        self._dive(covering, cover.gains, range(FEW))
+        self._dive(covering, cover.gains, range(FEW), CHOOSING * self.clock.left)
         return cover.gains
 
     def _open(self) -> bool:
@@ -119,9 +124,9 @@ class Search:
         self._tell(part)
         self.clock.check()
 
-    def _dive(self, covering: Covering, gains: np.ndarray, numbers: range) -> None:
+    def _dive(self, covering: Covering, gains: np.ndarray, numbers: range, seconds: float) -> None:
         """Dive again and again, each time with other preferences; the very first has none."""
-        problem, until = self.problem, self.clock.seconds + CHOOSING * self.clock.left
+        problem, until = self.problem, self.clock.seconds + seconds
         looks = LOOKS if problem.size <= MANY else 0
         for number in numbers if looks else numbers[:1]:
             if not self._open() or self.clock.seconds > until:
