@@ -438,6 +438,11 @@ def test_rows_of_other_sources_are_taken_over_if_a_sample_of_them_comes_out_agai
     assert "2 now" in capsys.readouterr().out
     campaign("collect")
     assert table.read(tmp_path / "here" / "runs.parquet").equals(undisturbed)
+    design = (tmp_path / "study.toml").read_text()
+    (tmp_path / "study.toml").write_text(design.replace("[factors]", "set.dwell_time = 9.0\n[factors]"))
+    assert exit_code(["campaign", "adopt", "study.toml", "here", "--out", "other", "--repeat", "3"]) == 0
+    assert "; 0 of other sources taken over" in capsys.readouterr().out  # other parameters, the same sources
+    (tmp_path / "study.toml").write_text(design)
     outdated(tmp_path / "kept.parquet", sequences=[7] * 6)
     adopt[-1] = "elsewhere"
     assert exit_code([*adopt, "--repeat", "1"]) == 2

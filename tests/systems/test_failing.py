@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from formicarium.commands.campaign.study import study_of
+from formicarium.commands.errors import UserError
+from formicarium.commands.known import parameters_of
 from formicarium.commands.sources import sources_of
 from formicarium.commands.work import configuration_of
 from formicarium.systems.registry import UnknownSystem, resolve
@@ -51,3 +54,19 @@ def test_what_cannot_be_read_is_shown_how(text):
 def test_a_system_that_shows_no_state_cannot_fail():
     with pytest.raises(UnknownSystem, match="nothing can fail in it"):
         resolve("random_walk:RANDOM_WALK+kill:1@2")
+
+
+@pytest.mark.parametrize(
+    ("failure", "said"), [("kill:6@20", "there is no robot 6, they are 1 to 5"), ("block:9@20", "there is no booth 9")]
+)
+def test_what_is_not_there_cannot_fail_and_is_told_before_the_first_run(failure, said):
+    system = resolve(f"mark-i3+{failure}")
+    with pytest.raises(UserError, match=said):
+        parameters_of(system, None, 5, ())
+    with pytest.raises(UserError, match=said):
+        parameters_of(system, None, 20, ("swarm.robots=5",))
+    design = {"name": "dark", "system": system.name, "replicates": 1, "set": {"robots": 5}}
+    with pytest.raises(UserError, match=said):
+        study_of(design, "dark.toml", None)
+    assert parameters_of(resolve("mark-i3+kill:22@20"), None, None, ("swarm.robots=25",)).swarm.robots == 25
+    assert resolve("mark-i3+kill:22@20").configure().swarm.robots == 20  # of which describe tells

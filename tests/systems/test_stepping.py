@@ -16,6 +16,7 @@ sys.path.insert(0, ".")
 from formicarium.systems import stepping
 from wrong.study import SYSTEM
 stepping.CYCLE_LIMIT = 2.0
+stepping.mind_divisions(False)
 print(stepping.first_failure(SYSTEM.advance, SYSTEM.begin(SYSTEM.configure(robots=3), 1), 6))
 """
 LINE = "    be_quiet(command)\n"
@@ -93,6 +94,7 @@ def test_what_differs_from_the_usual_is_said_as_one_would_type_it():
         ("reading.proximity[reading.cycle - 122]", "IndexError: index 8 is out of bounds"),
         ("reading.proximity[0] / (reading.cycle - 130)", "RuntimeWarning: divide by zero"),  # NumPy's number
         ("1.0 / float(reading.cycle - 130)", "ZeroDivisionError: "),  # Python's
+        ("reading.proximity[0] * 0.0 / (reading.cycle - 130)", "RuntimeWarning: invalid value encountered"),
     ],
 )
 def test_what_compiled_code_checks_is_told_as_plain_python_tells_it(tmp_path, monkeypatch, wrong, said):
@@ -104,12 +106,14 @@ def test_what_compiled_code_checks_is_told_as_plain_python_tells_it(tmp_path, mo
     number = file.read_text().splitlines().index(line) + 1
     program = [sys.executable, "-m", "formicarium.commands.main"]
     plain = {name: value for name, value in os.environ.items() if name != "FORMICARIUM_INTERPRETED"}
-    run = [*program, "run", "wrong", "--robots", "3", "--set", "time_cap=20"]
+    name = "wrong+kill:1@2" if "1.0" in wrong else "wrong"  # failures are injected, and errors told, all the same
+    run = [*program, "run", name, "--robots", "3", "--set", "time_cap=20"]
     done = subprocess.run(run, cwd=folder, env=plain, capture_output=True, text=True, check=False)
-    assert done.returncode == 1 and "wrong, seed 1, cycle 130, robot " in done.stderr, done.stderr
+    assert done.returncode == 1 and f"{name}, seed 1, cycle 130, robot " in done.stderr, done.stderr
     assert f"behaviour.py, line {number}, in decide" in done.stderr and said in done.stderr
     command = re.search(r"Way out: formicarium (debug .*)\n", done.stderr)[1].split()
     stopped = subprocess.run(
         [*program, *command], cwd=folder, env=plain, input="c\n", capture_output=True, text=True, check=False
     )
-    assert said.partition(":")[0] in stopped.stdout + stopped.stderr
+    if "invalid" not in said:  # nobody but the explanation stops at 0 / 0 of NumPy's numbers
+        assert f"\n{said.partition(':')[0]}: " in stopped.stdout

@@ -77,8 +77,9 @@ def as_of_today(
     """Return rows of other sources as rows of today's, if a sample of them comes out the same when it is repeated.
 
     An edit that changes no result outdates every row all the same: nobody can tell by looking at hashes. The sample is
-    drawn by a hash of the seeds. A row belongs to the cell with its factors; whether all else was the same too, the
-    sample must show.
+    drawn by a hash of the seeds. A row belongs to the cell with its factors; whether all else that the design says was
+    the same, a file of rows does not tell, so that the sample must show it. Rows of today's sources that belong to no
+    run of the design have other parameters, and are left alone.
 
     Args:
         jobs: of the design.
@@ -92,11 +93,15 @@ def as_of_today(
     """
     cells = {(_text(job.cell.factors), seed): job for job in jobs for seed in job.cell.seeds}
     today = {key for job in jobs for key in job.keys}
-    found = {
-        place: cells[_text(json.loads(row["factors"])), row["seed"]]
-        for place, row in enumerate(rows.select(["identity", "factors", "seed"]).to_pylist())
-        if (row["identity"], row["seed"]) not in today and (_text(json.loads(row["factors"])), row["seed"]) in cells
-    }
+    found = {}
+    for place, row in enumerate(rows.select(["identity", "factors", "seed", "sources"]).to_pylist()):
+        job = cells.get((_text(json.loads(row["factors"])), row["seed"]))
+        if (
+            job is not None
+            and row["sources"] != job.configuration.sources
+            and (row["identity"], row["seed"]) not in today
+        ):
+            found[place] = job
     others = rows.take(pa.array(list(found), pa.int64()))
     stored = others.to_pylist()
     sample = sorted(zip(found.values(), stored), key=lambda pair: _drawn(pair[1]))[:count]

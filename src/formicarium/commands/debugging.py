@@ -13,6 +13,7 @@ from formicarium.commands.errors import UserError
 from formicarium.commands.known import find_system, parameters_of
 from formicarium.commands.runs import find_run
 from formicarium.systems.registry import System, names, resolve
+from formicarium.systems.stepping import mind_divisions
 from formicarium.views.live.session import Session
 
 PROGRAM = (
@@ -60,6 +61,7 @@ def state_of(place: str, cycle: int, seed: int | None, choice: Choice) -> tuple[
 def step(name: str, file: str, robot: int, cycles: int) -> None:
     """Go through cycles in the debugger, stopping where the robot begins to decide. Runs interpreted."""
     system, state = resolve(name), pickle.loads(Path(file).read_bytes())
+    mind_divisions(strict=False)
     print("n next line   s into   p memory.FIELD print   b FILE:LINE break   c next cycle   q end", flush=True)
     for _ in range(cycles):
         if state.clock[0].finished or not _stepped(system, state, robot):
@@ -69,7 +71,7 @@ def step(name: str, file: str, robot: int, cycles: int) -> None:
 def _stepped(system: System, state: Any, robot: int) -> bool:
     """Let one cycle pass under the debugger; return whether to go on."""
     from bdb import BdbQuit
-    from pdb import Pdb
+    from pdb import Pdb, post_mortem
 
     debugger = Pdb(nosigint=True)
 
@@ -87,6 +89,11 @@ def _stepped(system: System, state: Any, robot: int) -> bool:
     try:
         system.advance(state, 1)  # type: ignore[misc]
     except BdbQuit:
+        return False
+    except Exception as error:
+        sys.settrace(None)
+        print(f"\n{type(error).__name__}: {error}; p NAME print   u frame above   q end", flush=True)
+        post_mortem(error.__traceback__)
         return False
     finally:
         sys.settrace(None)

@@ -38,4 +38,18 @@ def parameters_of(system: System, setting: int | None, robots: int | None, setti
         raise UserError(f"{options}{in_words(error)}") from error
     except ValueError as error:
         raise UserError(f"{options}{error}") from error
-    return with_settings(parameters, settings)
+    return checked(system, with_settings(parameters, settings))
+
+
+def checked(system: System, parameters: BaseModel) -> BaseModel:
+    """Return the parameters, if what is to fail by the system's name is there.
+
+    Raises:
+        UserError: naming the robot or device that is not.
+    """
+    if "+" in system.name and system.begin is not None:  # a trial's state knows what there is
+        try:
+            system.begin(parameters, 0)
+        except ValueError as error:
+            raise UserError(str(error)) from error
+    return parameters

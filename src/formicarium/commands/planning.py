@@ -88,7 +88,7 @@ def _show(instance: Instance, answer: Answer, wish: Wish, written: list[Path]) -
     known = {
         "proven": "proven best",
         "time limit": f"the time limit came: at most {answer.gap:.2%} above the best",
-        "gave up": f"at most {answer.gap:.2%} above the best; more time would not help",
+        "gave up": f"at most {answer.gap:.2%} above the best; it has tried what it knows",
         "interrupted": f"interrupted: at most {answer.gap:.2%} above the best",
     }[answer.ended]
     screen.print(

@@ -26,6 +26,7 @@ class Clock:
     def __init__(self, limit: float | None = None, told: Told | None = None, processor: bool = False):
         """Start; ``limit`` in seconds, None for no limit."""
         self._now = time.process_time if processor else time.monotonic
+        self.on_the_wall = not processor
         self._began = self._now()
         self._limit = limit
         self._told = told

@@ -1,7 +1,8 @@
 """Total Completion Time Minimisation (TCTM), (4): the least sum of slots, and the proof that it is the least.
 
 First a schedule by first fit, then lower bounds layer by layer, then the best choice among the sets that pricing
-came across; if bound and schedule still differ, all sets that a better schedule could use.
+came across; if bound and schedule still differ, all sets that a better schedule could use. With more than 40 tasks
+dives (``diving.py``) come after the first bound, and again at the end, as long as there is time.
 """
 
 from typing import NamedTuple
@@ -22,6 +23,7 @@ MOST_ENTRIES = 20_000_000  # of an enumeration: sets times tasks
 SHARE = 0.5  # of the time that is left, for all layers together
 LOOKS = 8  # for sets, after each step of a dive
 FEW, MOST_DIVES = 20, 1000  # dives in a row, and in all
+LONGEST_GROWTH = 30.0  # s of growing sets, which hears no Ctrl-C
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 
 
@@ -37,9 +39,9 @@ class Completion(NamedTuple):
 class Search:
     """The state of a search for the least completion time; can be stopped at any moment."""
 
-    def __init__(self, problem: Problem, places: Places, clock: Clock):
-        """Begin with first fit and the longest chain of priorities."""
-        self.problem, self.places, self.clock = problem, places, clock
+    def __init__(self, problem: Problem, places: Places, clock: Clock, share: float = 1.0):
+        """Begin with first fit and the longest chain of priorities; last dives take a share of what time is left."""
+        self.problem, self.places, self.clock, self.share = problem, places, clock, share
         slots = first_fit(problem, places)
         value = ticks_of(problem, slots)
         chain = max(longest_chain(problem), int(problem.ticks.max()))
@@ -60,9 +62,10 @@ class Search:
             self._enumerate(cover, layers)
         if gains is None:
             return
+        until = self.clock.seconds + self.share * self.clock.left
         for first in range(FEW, MOST_DIVES, FEW):
             value = self.best.value
-            self._dive(covering, gains, range(first, first + FEW), self.clock.left)
+            self._dive(covering, gains, range(first, first + FEW), until - self.clock.seconds)
             if self._open() and cover.converged and self.best.value < value:  # fewer sets could do better now
                 self._enumerate(cover, layers)
 
@@ -112,7 +115,7 @@ class Search:
         return SHARE * self.clock.left / parts
 
     def _raise_bound(self, bound: float, proof: str) -> None:
-        whole = int(np.ceil(bound - 1e-6))
+        whole = int(np.ceil(bound - 1e-6)) if np.isfinite(bound) else 0
         if whole > self.best.bound:
             self.best = self.best._replace(bound=min(whole, self.best.value), proof=proof)
         self._tell(proof)
@@ -149,7 +152,8 @@ class Search:
         for layer, price in zip(layers, paid):
             allowed = problem.ticks <= layer.ticks
             worth = layer.ticks - price - gap - 1e-6
-            found = sets_below(problem, self.places, cover.gains, worth, layer.ticks, allowed, most)
+            seconds = LONGEST_GROWTH if self.clock.left > 2.0 * LONGEST_GROWTH else 0.5 * self.clock.left
+            found = sets_below(problem, self.places, cover.gains, worth, layer.ticks, allowed, most, seconds)
             if found is None or len(sets) + len(found) > most:
                 return
             sets += found
@@ -160,9 +164,16 @@ class Search:
         self._raise_bound(min(bound, self.best.value), "enumeration")
 
 
-def least_time(problem: Problem, places: Places, clock: Clock) -> tuple[Completion, str]:
-    """Return the best schedule and bound, and how the work ended: "proven", "time limit" or "interrupted"."""
-    search = Search(problem, places, clock)
+def least_time(problem: Problem, places: Places, clock: Clock, share: float = 1.0) -> tuple[Completion, str]:
+    """Return the best schedule and bound, and how the work ended: "proven", "time limit", "gave up", "interrupted".
+
+    Args:
+        problem: to be solved.
+        places: its slot oracle.
+        clock: of the whole work.
+        share: of the time that is left when nothing but further dives may help, to be spent on those.
+    """
+    search = Search(problem, places, clock, share)
     ended = "time limit"
     try:
         search.run()

@@ -14,6 +14,7 @@ from formicarium.scheduling.problem import Problem
 from formicarium.scheduling.reach import apart, distance, relays
 
 CELLS = 24  # along each side
+STEPS_A_SECOND = 400_000  # of growing sets, roughly: a hundred looks at cells each
 
 
 def cell_demands(problem: Problem, cells: int) -> np.ndarray:
@@ -25,8 +26,9 @@ def cell_demands(problem: Problem, cells: int) -> np.ndarray:
 
 
 def sets_below(
-    problem: Problem, places: Places, gains: np.ndarray, worth: float, least: int, allowed: np.ndarray, most: int
-) -> list[Set] | None:
+    problem: Problem, places: Places, gains: np.ndarray, worth: float, least: int, allowed: np.ndarray, most: int,
+    seconds: float,
+) -> list[Set] | None:  # fmt: skip
     """Return the sets of allowed tasks that can be done at once and gain at least ``worth``.
 
     Without priorities a part of a set that is there need not be: the whole takes no longer and does more.
@@ -39,6 +41,7 @@ def sets_below(
         least: ticks that at least one task of the set must last.
         allowed: (T,) bool.
         most: sets; None is returned if there are more.
+        seconds: to spend on growing sets, roughly; None is returned if that is not enough.
     """
     tasks = np.flatnonzero(allowed)
     tasks = tasks[np.lexsort((-gains[tasks], -problem.ticks[tasks]))]
@@ -54,6 +57,7 @@ def sets_below(
     number = grow(
         gains[tasks], wanted, demands, problem.limits.astype(float), first, worth, bounds, multipliers,
         np.empty((count + 1, cells)), np.empty((count + 1, rows)), np.empty(count + 1, np.bool_), found,
+        seconds * STEPS_A_SECOND,
     )  # fmt: skip
     if number < 0:
         return None
@@ -116,8 +120,8 @@ def _bound_cells(gains, wanted, demands, limits, worth, bounds, multipliers, wei
 
 
 @compiled
-def grow(gains, wanted, demands, limits, first, worth, bounds, multipliers, used, taken, chosen, found):
-    """Write every set that may do into ``found`` and return how many there are, -1 if there are too many."""
+def grow(gains, wanted, demands, limits, first, worth, bounds, multipliers, used, taken, chosen, found, steps):
+    """Write every set that may do into ``found`` and return how many there are, -1 if too many, or steps run out."""
     count, rows, cells = len(gains), len(limits), len(wanted)
     for cell in range(cells):
         used[0, cell] = 0.0
@@ -126,6 +130,9 @@ def grow(gains, wanted, demands, limits, first, worth, bounds, multipliers, used
     number, place, gain, has_long = 0, 0, 0.0, 0
     forward = True
     while True:
+        steps -= 1.0
+        if steps < 0.0:
+            return -1
         if forward:
             # can the set of this place still be worth it in some cell?
             alive = False

@@ -93,7 +93,7 @@ class Mixed:
         highs.setOptionValue("mip_rel_gap", relative_gap)
         if cutoff is not None:
             highs.setOptionValue("objective_bound", cutoff)
-        if np.isfinite(until):  # on the wall; presolve does not ask the callbacks
+        if clock.on_the_wall and np.isfinite(until):  # HiGHS knows no other; its presolve does not ask the callbacks
             highs.setOptionValue("time_limit", max(0.0, until - clock.seconds))
         with _interruptible() as stopped:
             for event in (highs.cbMipInterrupt, highs.cbSimplexInterrupt):

@@ -52,7 +52,7 @@ def solve(
     clock = Clock(time_limit, told, processor_time)
     problem = problem_of(instance, Reach[reach.upper()])
     places = Places(problem)
-    best, ended = least_time(problem, places, clock)
+    best, ended = least_time(problem, places, clock, 1.0 if objective == "time" else 0.5)
     if objective == "time":
         points = [places.deploy(np.array(slot)) for slot in best.slots]
         found = [(slot, (p.x, p.y), p.hops) for slot, p in zip(best.slots, points) if p is not None]

@@ -49,6 +49,8 @@ def explain(place: str, parameters: str, seed: int, cycle: int, what: str) -> st
     except Exception:  # it cannot be compiled
         state = system.begin(system.parameters.model_validate_json(parameters), seed)  # type: ignore[misc]
     found = interpreted(place, state)
+    if not found and "ZeroDivisionError" in what:
+        found = interpreted(place, state, "strict")
     if found:
         settings = changed(system.configure().model_dump(mode="json"), json.loads(parameters))
         return f"{head}, {found}{way_out(system.name, seed, found, settings)}"
@@ -61,9 +63,10 @@ def changed(usual: Mapping[str, Any], chosen: Mapping[str, Any], prefix: str = "
     """Return what must be said after --set to come from one set of parameters to another: "group.name=value"."""
     found = []
     for name, value in chosen.items():
-        if isinstance(value, Mapping):
-            found += changed(usual[name], value, f"{prefix}{name}.")
-        elif value != usual[name]:
+        before = usual.get(name)
+        if isinstance(value, Mapping) and isinstance(before, Mapping):
+            found += changed(before, value, f"{prefix}{name}.")
+        elif value != before:
             text = value if isinstance(value, str) else json.dumps(value, separators=(",", ":"))
             found.append(f"{prefix}{name}={text}")
     return found
@@ -97,19 +100,25 @@ def is_own(file: str) -> bool:
     return path.suffix == ".py" and not path.is_relative_to(PACKAGE) and not INSTALLED & set(path.parts)
 
 
-def interpreted(place: str, state: Any) -> str:
-    """Go on from a state in plain Python, in a process of its own; return what fails, empty if nothing does."""
+def interpreted(place: str, state: Any, divisions: str = "plain") -> str:
+    """Go on from a state in plain Python, in a process of its own; return what fails, empty if nothing does.
+
+    Args:
+        place: the system as "module:object".
+        state: to begin with.
+        divisions: "strict" to stop at 0 / 0 of NumPy's numbers too.
+    """
     program = (
         "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from formicarium.systems.stepping import main; main()"
     )
     try:
         done = subprocess.run(
-            [sys.executable, "-c", program, json.dumps(sys.path), place, str(INTERPRETED_CYCLES)],
+            [sys.executable, "-c", program, json.dumps(sys.path), place, str(INTERPRETED_CYCLES), divisions],
             input=pickle.dumps(state), env=os.environ | {"FORMICARIUM_INTERPRETED": "1"}, timeout=LONGEST,
             capture_output=True, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        return ""
+        return f"and plain Python does not come to {INTERPRETED_CYCLES} cycles in {LONGEST:g} s either"
     if done.returncode:
         return f"and plain Python fails before it comes there: {done.stderr.decode().strip().splitlines()[-1:]}"
     return done.stdout.decode().strip()

@@ -17,7 +17,7 @@ from formicarium.systems.registry import System, Targets, UnknownSystem
 from formicarium.trial.film import Film, frames_of, make_film
 from formicarium.trial.record import Trial
 from formicarium.trial.simulate import simulate
-from formicarium.trial.watching import Intervention
+from formicarium.trial.watching import Impossible, Intervention
 
 DEEDS = ("kill", "block", "unblock")
 
@@ -65,11 +65,6 @@ def failing(system: System, texts: list[str]) -> System:
         raise UnknownSystem(f"{name}: {system.name} has no begin, advance and watching, so nothing can fail in it")
     plain_begin, plain_advance, watching = system.begin, system.advance, system.watching
 
-    def configure(**arguments: Any) -> Any:
-        parameters = system.configure(**arguments)
-        begin(parameters, 0)  # a robot that is not there is told before the first run
-        return parameters
-
     def begin(parameters: Any, seed: int, **options: Any) -> Any:
         state = plain_begin(parameters, seed, **options)
         cycle_time = watching.scene(parameters, state).cycle_time
@@ -82,6 +77,11 @@ def failing(system: System, texts: list[str]) -> System:
                 if failure.subject > len(state.robots):
                     raise ValueError(f"{name}: there is no robot {failure.subject}, they are 1 to {len(state.robots)}")
                 die(state, failure.subject - 1, round(failure.value / cycle_time))
+            else:
+                try:
+                    watching.intervene(plain_begin(parameters, seed), Intervention(0, failure.deed, failure.subject))
+                except Impossible as error:
+                    raise ValueError(f"{name}: {error}") from error
         return state
 
     def due(state: Any) -> dict[int, list[Failure]]:
@@ -122,7 +122,12 @@ def failing(system: System, texts: list[str]) -> System:
         room = 2 + int(state.clock[0].last_cycle) // every if frames_every is not None else 1
         film = make_film(room, len(state.robots), scene)
         take = None if frames_every is None else lambda state: watching.shoot(state, film)
-        events = simulate(advance, state, every=every, take=take, watch=watch)
+        try:
+            events = simulate(advance, state, every=every, take=take, watch=watch)
+        except Exception as error:
+            if system.explained is None:
+                raise
+            raise system.explained(parameters, seed, int(state.clock[0].cycle), error, texts) from error
         frames = None if frames_every is None else frames_of(film, np.asarray(state.robots["identity"]))
         return Trial(watching.outcome(parameters, state, events), events, frames, scene)
 
@@ -130,7 +135,6 @@ def failing(system: System, texts: list[str]) -> System:
     return system._replace(
         name=name,
         summary=f"{system.summary}; with failures: {', '.join(texts)}",
-        configure=configure,
         run=run,
         begin=begin,
         advance=advance,

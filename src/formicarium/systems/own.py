@@ -119,11 +119,14 @@ def assemble(swarm: Swarm) -> System:
         content = parameters.model_dump_json()
         return [sys.executable, "-c", EXPLAIN, json.dumps(sys.path), place_of(swarm, home), content, str(seed)]
 
-    def explained(parameters: Any, seed: int, cycle: int, error: Exception | None) -> Exception:
+    def explained(
+        parameters: Any, seed: int, cycle: int, error: Exception | None, failures: Sequence[str] = ()
+    ) -> Exception:
         what = "a command is no number" if error is None else f"{type(error).__name__}: {error}"
         if isinstance(error, Explained):
             return error
-        return Explained(explain(place_of(swarm, home), parameters.model_dump_json(), seed, cycle, what))
+        place = "+".join([place_of(swarm, home), *failures])
+        return Explained(explain(place, parameters.model_dump_json(), seed, cycle, what))
 
     def roles_of(state: SwarmState) -> np.ndarray:
         roles = state.memories["role"] if "role" in (swarm.memory.names or ()) else 0

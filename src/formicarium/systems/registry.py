@@ -60,8 +60,8 @@ class System(NamedTuple):
     watching: Watching | None = None  # how it is shown and touched; None if it cannot be watched
     onboard: Onboard | None = None  # its loop taken apart, for controllers in processes of their own
     home: str | None = None  # module whose package holds its sources; that of ``run`` if not given
-    # (parameters, seed, last good cycle, error) -> the error in words that name file, line, robot and cycle
-    explained: Callable[[Any, int, int, Exception | None], Exception] | None = None
+    # (parameters, seed, last good cycle, error, failures injected) -> the error in words: file, line, robot and cycle
+    explained: Callable[..., Exception] | None = None
 
 
 class UnknownSystem(LookupError):

@@ -1,6 +1,7 @@
 """Going through a trial in plain Python, cycle by cycle, until something fails; then saying where."""
 
 import pickle
+import signal
 import sys
 import threading
 import traceback
@@ -20,19 +21,21 @@ from formicarium.systems.registry import resolve
 
 CYCLE_LIMIT = 10.0  # s that a cycle may take; interpreted ones take some hundredths
 WHEELS = ("left", "right")
-DIVISION = r"(divide by zero|invalid value) encountered in .*(divi|remainder|mod)"  # as NumPy says it
+# As NumPy says it.
+BY_ZERO, INVALID, IN_DIVISION = "divide by zero", "invalid value", " encountered in .*(divi|remainder|mod)"
 
 
 def main() -> None:
-    """Read a state from stdin, go on, and print what fails: arguments PATH PLACE CYCLES (sys.argv)."""
+    """Read a state from stdin, go on, and print what fails: arguments PATH PLACE CYCLES strict|plain (sys.argv)."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where a shell runs it in the background
     advance = resolve(sys.argv[2]).advance
     assert advance is not None
+    mind_divisions(sys.argv[4] == "strict")
     print(first_failure(advance, pickle.load(sys.stdin.buffer), int(sys.argv[3])))
 
 
 def first_failure(advance: Callable[[Any, int], None], state: Any, cycles: int) -> str:
     """Return what fails within so many cycles, in words; empty if nothing does."""
-    mind_divisions()
     for _ in range(cycles):
         clock = state.clock[0]
         if clock.cycle >= clock.last_cycle or (clock.finished and not troubled(state)):
@@ -54,11 +57,16 @@ def first_failure(advance: Callable[[Any, int], None], state: Any, cycles: int) 
     return ""
 
 
-def mind_divisions() -> None:
-    """Have a reader's own divisions by zero raise, as they do when compiled; NumPy's numbers would go on with inf."""
+def mind_divisions(strict: bool) -> None:
+    """Have a reader's own divisions by zero raise, as they do when compiled; NumPy's numbers would go on with inf.
+
+    Args:
+        strict: 0 / 0 too. NumPy says the same of inf / inf, which compiled code lets pass.
+    """
     np.seterr(all="warn")
     warnings.simplefilter("ignore", RuntimeWarning)
-    warnings.filterwarnings("error", DIVISION, RuntimeWarning, rf"(?!{PACKAGE.name}\b)")
+    said = rf"({BY_ZERO}|{INVALID})" if strict else BY_ZERO
+    warnings.filterwarnings("error", said + IN_DIVISION, RuntimeWarning, rf"(?!{PACKAGE.name}\b)")
 
 
 def troubled(state: Any) -> bool:

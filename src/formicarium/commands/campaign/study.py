@@ -15,7 +15,7 @@ from formicarium.campaigns.ledger import Ledger
 from formicarium.commands.campaign.earlier import made_by
 from formicarium.commands.errors import UserError
 from formicarium.commands.fields import find_field, in_words, parted, typed_value, value_of_text, with_values
-from formicarium.commands.known import find_system
+from formicarium.commands.known import checked, find_system
 from formicarium.commands.work import configuration_of, row_function
 from formicarium.systems.registry import System
 
@@ -170,7 +170,7 @@ def _parameters(cell: Cell, system: System, source: str) -> Any:
         field = find_field(system.parameters, name, f"{where}: {name}")
         typed[field.path] = typed_value(field, value, f"{where}: {name}")
     try:
-        return with_values(parameters, typed)
+        return checked(system, with_values(parameters, typed))
     except UserError as error:
         raise UserError(f"{where}: {error}") from error
 
