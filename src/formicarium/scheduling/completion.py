@@ -22,7 +22,7 @@ from formicarium.streams import generator
 MOST_ENTRIES = 20_000_000  # of an enumeration: sets times tasks
 SHARE = 0.5  # of the time that is left, for all layers together
 LOOKS = 8  # for sets, after each step of a dive
-FEW, MOST_DIVES = 20, 1000  # dives in a row, and in all
+FEW, MOST_DIVES = 20, 400  # dives in a row, and in all
 LONGEST_GROWTH = 30.0  # s of growing sets, which hears no Ctrl-C
 CHOOSING = 0.25  # of the time that is left, for a choice among known sets
 
