@@ -27,7 +27,6 @@ BY_ZERO, INVALID, IN_DIVISION = "divide by zero", "invalid value", " encountered
 
 def main() -> None:
     """Read a state from stdin, go on, and print what fails: arguments PATH PLACE CYCLES strict|plain (sys.argv)."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where a shell runs it in the background
     advance = resolve(sys.argv[2]).advance
     assert advance is not None
     mind_divisions(sys.argv[4] == "strict")
@@ -76,7 +75,8 @@ def troubled(state: Any) -> bool:
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Interrupt what takes longer."""
+    """Interrupt what takes longer, also where a shell in the background has SIGINT ignored."""
+    previous = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(seconds, interrupt_main)
     timer.daemon = True
     timer.start()
@@ -84,6 +84,7 @@ def limited(seconds: float) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
+        signal.signal(signal.SIGINT, previous)
 
 
 def frames_of(trace: TracebackType | None) -> list[tuple[FrameType, int]]:
