@@ -170,6 +170,10 @@ class SharedCache:
         return self._parts[frozenset()].cache_path
 
 
+# Made of many arrays: to hand one over takes as long as the distances to twenty neighbours.
+LARGE = ("state", "world", "solver")
+
+
 class Compiled:
     """A function in machine code, for compiled callers and for Python.
 
@@ -181,7 +185,8 @@ class Compiled:
     def __init__(self, function: Callable[..., Any]):
         """Prepare; nothing is compiled before the first call."""
         functools.update_wrapper(self, function)
-        self.inner = _njit(function, "inner", no_cpython_wrapper=True)
+        takes_large = function.__code__.co_varnames[:1] in [(name,) for name in LARGE]
+        self.inner = _njit(function, "inner", no_cpython_wrapper=True, forceinline=takes_large)
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the machine code from Python."""
@@ -254,7 +259,9 @@ def compiled(function: Callable[..., Any]) -> Any:
     Floating point is strict (no fused or re-ordered arithmetic), so compiled and interpreted runs agree to
     the last bit as long as the function avoids ``math.hypot``. Compiled functions own no memory: they work on
     arrays handed to them and may not make new ones, which saves counting references to every array of a state
-    at every call (measured in docs/why.md). A reader's functions are checked: as in plain Python, an index beyond
-    an array and a division by zero are errors. Code that is typed into a session has no file and is not kept.
+    at every call (measured in docs/why.md). A function whose first argument is a ``state``, a ``world`` or a
+    ``solver`` becomes part of the code of its callers: those are many arrays, and slow to hand over. A reader's
+    functions are checked: as in plain Python, an index beyond an array and a division by zero are errors. Code that
+    is typed into a session has no file and is not kept.
     """
     return function if INTERPRETED else Compiled(function)

@@ -8,7 +8,7 @@ stays where it was. The alternative, ``physics.step``, has masses and friction.
 import math
 
 from formicarium.compiled import compiled
-from formicarium.physics.geometry import place_along
+from formicarium.physics.geometry import beyond, place_along
 from formicarium.physics.grid import scenery_cell
 
 PASSES = 5  # over all pairs and walls (TP-65)
@@ -31,8 +31,9 @@ def disentangle(world, time):
     for _ in range(PASSES):
         if not part_all(world):
             break
-    while hold_back(world):
-        pass
+    else:
+        while hold_back(world):
+            pass
     note_speeds(world, time)
 
 
@@ -66,7 +67,7 @@ def roll(body, start, time):
 
 @compiled
 def part_all(world):
-    """Take back, contact by contact in the order of keys, what leads into others and walls; tell if any did."""
+    """Take back, contact by contact in the order of keys, what leads into others and walls; tell if any overlapped."""
     found = False
     motions = world.solver.motions
     for place in range(len(world.bodies)):
@@ -100,7 +101,7 @@ def part_pair(first, second, first_start, second_start):
     own = max(0.0, (first.x - first_start.x) * normal_x + (first.y - first_start.y) * normal_y)
     other = max(0.0, (second_start.x - second.x) * normal_x + (second_start.y - second.y) * normal_y)
     if own + other <= 0.0:
-        return False
+        return True
     back = min(1.0, (reach - distance) / (own + other))
     first.x -= back * own * normal_x
     first.y -= back * own * normal_y
@@ -112,13 +113,17 @@ def part_pair(first, second, first_start, second_start):
 @compiled
 def part_from_face(body, face):
     """Move a disc out of a piece of scenery; tell if it overlapped."""
+    if beyond(face.ax, face.ay, face.bx, face.by, body.x, body.y, body.radius):
+        return False
     place = place_along(face.ax, face.ay, face.bx, face.by, body.x, body.y)
     dx = body.x - (face.ax + place * (face.bx - face.ax))
     dy = body.y - (face.ay + place * (face.by - face.ay))
     square = dx * dx + dy * dy
-    if square >= (body.radius - TOUCH) * (body.radius - TOUCH) or square == 0.0:
+    if square >= (body.radius - TOUCH) * (body.radius - TOUCH):
         return False
     distance = math.sqrt(square)
+    if distance == 0.0:
+        return True
     body.x += dx / distance * (body.radius - distance)
     body.y += dy / distance * (body.radius - distance)
     return True

@@ -6,7 +6,7 @@ The functions that take a world hand on only what is needed of it: few arguments
 import math
 
 from formicarium.compiled import compiled
-from formicarium.physics.geometry import crosses, square_distance
+from formicarium.physics.geometry import beyond, crosses, square_distance
 from formicarium.physics.grid import scenery_cell
 
 
@@ -29,6 +29,8 @@ def cast(world, i, start_radius, reach, cosines, sines, distances):
     cell = scenery_cell(world.settings[0], body.x, body.y)
     for member in range(world.scenery[cell], world.scenery[cell + 1]):
         face = world.segments[world.scenery[member]]
+        if beyond(face.ax, face.ay, face.bx, face.by, body.x, body.y, end):
+            continue
         if square_distance(face.ax, face.ay, face.bx, face.by, body.x, body.y) < end * end:
             cast_at_face(body, face, start_radius, cosines, sines, distances)
 
