@@ -28,10 +28,9 @@ def hidden_by_body(world, i, dx, dy, squared):
     """Tell whether another body stands on the line from body i to the place (dx, dy) metres away."""
     for k in range(world.neighbour_count[i]):
         near = world.neighbours[i, k]
-        along = near.dx * dx + near.dy * dy
-        if 0.0 < along < squared:
-            across = near.dx * dy - near.dy * dx
-            if across * across < world.bodies[near.index].radius ** 2 * squared:
+        across = near.dx * dy - near.dy * dx
+        if across * across < world.bodies[near.index].radius ** 2 * squared:
+            if 0.0 < near.dx * dx + near.dy * dy < squared:
                 return True
     return False
 
