@@ -24,8 +24,8 @@ def square_distance(ax, ay, bx, by, x, y):
 
 @compiled
 def beyond(ax, ay, bx, by, x, y, reach):
-    """Tell at a glance that the segment a-b is at least ``reach`` (m) from (x, y): by the box that bounds it."""
-    return x - reach >= max(ax, bx) or x + reach <= min(ax, bx) or y - reach >= max(ay, by) or y + reach <= min(ay, by)
+    """Tell at a glance that the segment a-b is farther than ``reach`` (m) from (x, y): by the box that bounds it."""
+    return x - reach > max(ax, bx) or x + reach < min(ax, bx) or y - reach > max(ay, by) or y + reach < min(ay, by)
 
 
 @compiled
