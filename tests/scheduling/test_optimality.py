@@ -94,17 +94,33 @@ def test_out_of_time_below_a_target_proves_nothing(monkeypatch):
     assert answer.ended == "time limit" and not answer.proven and answer.bound < answer.value
 
 
+def same_as_model(seed, reach, most, seconds):
+    """Hold the exact method against the paper's model; tell for time and travel if that closed in time."""
+    instance = small_instance(seed, most)
+    answer = solve(instance, "time", reach.name.lower())
+    model = solve_model(instance, reach, Clock(seconds))
+    timed = closed(model)
+    if timed:
+        assert model.value == pytest.approx(answer.value)
+    assert model.bound <= answer.value + 1e-6
+    shorter = solve(instance, "travel", reach.name.lower(), charge_first=False)
+    model = solve_model(instance, reach, Clock(seconds), time=answer.value)
+    if closed(model):
+        assert model.value == pytest.approx(shorter.value, rel=3e-4, abs=1e-4)
+        wider = instance._replace(spacing=instance.spacing * (1.0 + 1e-5))  # HiGHS bends a row by up to 1e-6
+        assert not check(wider, model.schedule, reach.name.lower(), answer.value).faults
+        assert travel_cost(instance, model.schedule, False) == pytest.approx(model.value, rel=1e-5, abs=1e-5)
+    assert model.bound <= shorter.value * (1.0 + 3e-4) + 1e-4
+    return timed, closed(model)
+
+
+def closed(model):
+    return model.schedule is not None and model.value - model.bound <= 1e-4 * model.value + 1e-6
+
+
 @pytest.mark.parametrize("seed", range(200, 204))
 def test_the_papers_model_agrees(seed):
-    instance = small_instance(seed, 4)
-    answer = solve(instance, "time", "printed")
-    model = solve_model(instance, Reach.PRINTED, Clock(30))
-    assert model.value == pytest.approx(answer.value)
-    shorter = solve(instance, "travel", "printed", charge_first=False)
-    model = solve_model(instance, Reach.PRINTED, Clock(60), time=answer.value)
-    assert model.value == pytest.approx(shorter.value, rel=3e-4, abs=1e-4)
-    assert not check(instance, model.schedule, "printed", answer.value).faults
-    assert travel_cost(instance, model.schedule, False) == pytest.approx(model.value, rel=1e-5, abs=1e-5)
+    assert same_as_model(seed, Reach.PRINTED, 4, 60) == (True, True)
 
 
 @pytest.mark.parametrize("seed", range(300, 310))
@@ -122,8 +138,20 @@ def test_in_the_true_circle_no_arm_is_longer_than_the_radio_reaches(seed):
 def test_five_hundred_instances(part):
     for seed in range(1000 + 50 * part, 1050 + 50 * part):
         reach = (Reach.PRINTED, Reach.INSCRIBED)[seed % 2]
-        same_time(seed, reach, 6)
-        same_travel(seed, reach, 4)
+        same_time(seed, reach, 7)
+        same_travel(seed, reach, 5)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(10))
+def test_the_papers_model_agrees_wherever_it_closes(part, capsys):
+    """Of five hundred instances of up to six tasks, given five seconds of HiGHS for each objective."""
+    seeds = range(1000 + 50 * part, 1050 + 50 * part)
+    ended = [same_as_model(seed, (Reach.PRINTED, Reach.INSCRIBED)[seed % 2], 6, 5) for seed in seeds]
+    timed, travelled = (sum(one) for one in zip(*ended, strict=True))
+    with capsys.disabled():
+        print(f" closed in {timed} and {travelled} of 50 ", end="")
+    assert timed >= 40 and travelled >= 20
 
 
 @pytest.mark.parametrize(("number", "density", "seed", "limit"), [
