@@ -3,6 +3,8 @@
 import numpy as np
 
 from formicarium.compiled import compiled
+from formicarium.physics.records import records
+from formicarium.trial.record import EVENT
 
 CLOCK = np.dtype(
     [
@@ -14,6 +16,11 @@ CLOCK = np.dtype(
     ],
     align=True,
 )
+
+
+def make_log(most: int) -> np.recarray:
+    """Return an empty log with room for the most events of a look, twice: it is emptied when it is half full."""
+    return records(EVENT, 2 * most)
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""Running a trial: the compiled loop in looks, between which Python empties the log and takes snapshots."""
+"""Running a trial: the compiled loop in looks, between which Python takes snapshots and empties a log half full."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -51,13 +51,26 @@ def drain(state: Any) -> np.ndarray:
     Raises:
         EventsLost: if the log was too short.
     """
+    return in_order(emptied(state))
+
+
+def emptied(state: Any) -> np.ndarray:
+    """Empty the event log; return its events as they were written.
+
+    Raises:
+        EventsLost: if the log was too short.
+    """
     clock = state.clock[0]
     if clock.events_lost:
         raise EventsLost(f"{clock.events_lost} events did not fit into the log of {len(state.events)}")
     events = np.array(state.events[: clock.event_count]).view(EVENT)
     clock.event_count = 0
-    order = np.lexsort([events[name] for name in ("detail", "value", "subject", "kind", "robot", "cycle")])
-    return events[order]
+    return events
+
+
+def in_order(events: np.ndarray) -> np.ndarray:
+    """Return events by cycle, robot and kind."""
+    return events[np.lexsort([events[name] for name in ("detail", "value", "subject", "kind", "robot", "cycle")])]
 
 
 def simulate(
@@ -76,7 +89,7 @@ def simulate(
         run: the system's compiled loop, ``run(state, cycles)``.
         state: the system's state, changed in place.
         apart: some of what the loop calls, and with what: a cold start compiles it in a process of its own.
-        look: cycles between two looks, at most; the event log has room for LOOK.
+        look: cycles between two looks, at most; half the event log has room for LOOK.
         every: cycles between two frames.
         take: called with the state at the start, every so many cycles and at the end.
         watch: called after every look with (seconds simulated, seconds at most).
@@ -92,9 +105,10 @@ def simulate(
     while not clock.finished and clock.cycle < clock.last_cycle:
         cycles = min(look, int(clock.last_cycle - clock.cycle))
         run(state, min(cycles, every - int(clock.cycle) % every) if take else cycles)
-        logs.append(drain(state))
+        if clock.events_lost or 2 * clock.event_count > len(state.events):
+            logs.append(emptied(state))
         if take and (clock.cycle % every == 0 or clock.finished or clock.cycle >= clock.last_cycle):
             take(state)
         if watch:
             watch(float(clock.cycle) * cycle_time, float(clock.last_cycle) * cycle_time)
-    return np.concatenate(logs) if logs else np.zeros(0, EVENT)
+    return in_order(np.concatenate([*logs, emptied(state)]))

@@ -18,8 +18,7 @@ from formicarium.systems.coverage.formation import write_formation
 from formicarium.systems.coverage.measures import SEEN, SURVEY
 from formicarium.systems.coverage.memory import CHART, MEMORY, NEVER
 from formicarium.systems.coverage.parameters import PROGRAMMES, CoverageParameters
-from formicarium.trial.events import CLOCK
-from formicarium.trial.record import EVENT
+from formicarium.trial.events import CLOCK, make_log
 from formicarium.trial.setup import PLACING_ATTEMPTS, NoRoom, make_crew
 from formicarium.trial.situated import look
 
@@ -113,7 +112,7 @@ def begin(
         laplacian=np.zeros((count, count)),
         rows=np.zeros((4, count)),
         entry_of=np.zeros(IDENTITIES, np.int64),
-        events=records(EVENT, EVENTS_PER_LOOK * count),
+        events=make_log(EVENTS_PER_LOOK * count),
         footbot=p.footbot.record(),
         behaviour=p.behaviour.record(),
     )

@@ -18,8 +18,7 @@ from formicarium.systems.partitioning.arena import Arena, Box, make_arena, shade
 from formicarium.systems.partitioning.measures import SEEN
 from formicarium.systems.partitioning.memory import CHART, MEMORY, NEVER, Ground
 from formicarium.systems.partitioning.parameters import PartitioningParameters
-from formicarium.trial.events import CLOCK
-from formicarium.trial.record import EVENT
+from formicarium.trial.events import CLOCK, make_log
 from formicarium.trial.setup import APART, PLACING_ATTEMPTS, WALL_MARGIN, NoRoom, make_crew
 
 EVENTS_PER_LOOK = 100  # room in the log for each robot and each booth in one look of 100 cycles
@@ -105,7 +104,7 @@ def begin(
         lamp=lamp,
         visits=records(VISIT, len(depots)),
         seen=make_seen(count),
-        events=records(EVENT, EVENTS_PER_LOOK * (count + len(depots))),
+        events=make_log(EVENTS_PER_LOOK * (count + len(depots))),
         epuck=p.epuck.record(),
         sight=p.sight.record(),
         interfacing=make_interfacing(p),

@@ -15,8 +15,7 @@ from formicarium.systems.sequencing.arena import Arena, make_arena
 from formicarium.systems.sequencing.log import CHAIN, MEMBER
 from formicarium.systems.sequencing.memory import COLOURS, MEMORY, NEVER, State
 from formicarium.systems.sequencing.parameters import SequencingParameters
-from formicarium.trial.events import CLOCK
-from formicarium.trial.record import EVENT
+from formicarium.trial.events import CLOCK, make_log
 from formicarium.trial.setup import make_crew, random_places
 
 BOOTH_CLEARANCE = 0.15  # m, no robot starts this near to the middle of a mouth (U42)
@@ -77,7 +76,7 @@ def begin(
     clock = records(CLOCK, 1)
     clock[0].last_cycle = round(p.swarm.time_cap / p.physics.cycle_time)
     logging = p.swarm.log_messages or p.swarm.log_states
-    events = records(EVENT, 4096 + (100 * EVENTS_PER_ROBOT_CYCLE * count if logging else 20 * count))
+    events = make_log(4096 + (100 * EVENTS_PER_ROBOT_CYCLE * count if logging else 20 * count))
     commands = records(COMMAND, count)
     commands.infrared = SILENCE
     return SequencingState(

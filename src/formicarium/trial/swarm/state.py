@@ -12,8 +12,7 @@ from formicarium.robots.all_senses import READING
 from formicarium.robots.forager import LAMP
 from formicarium.robots.records import COMMAND, LIGHT, QUEUE, SILENCE, Colour
 from formicarium.streams import generator, stream
-from formicarium.trial.events import CLOCK
-from formicarium.trial.record import EVENT
+from formicarium.trial.events import CLOCK, make_log
 from formicarium.trial.setup import APART, PLACING_ATTEMPTS, WALL_MARGIN, NoRoom, make_crew
 from formicarium.trial.swarm.arena import Arena
 from formicarium.trial.swarm.castes import Caste, castes_by_key, embody
@@ -123,7 +122,7 @@ def begin_swarm(
         trouble=records(TROUBLE, 1),
         seed=np.array([seed], "i8"),
         queue=records(QUEUE, count),
-        events=records(EVENT, 4096 + EVENTS_PER_LOOK * count),
+        events=make_log(4096 + EVENTS_PER_LOOK * count),
         epuck=np.concatenate([caste.epuck.record() for caste in castes]).view(np.recarray),
         sight=p.sight.record(),
         behaviour=p.behaviour.record(),
