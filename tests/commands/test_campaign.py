@@ -451,6 +451,26 @@ def test_rows_of_other_sources_are_taken_over_if_a_sample_of_them_comes_out_agai
     assert not (tmp_path / "elsewhere").exists()
 
 
+def test_runs_without_the_tables_that_a_design_keeps_are_left_to_be_run_again(tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(f'name = "walk"\nsystem = "{WALK}"\nseeds = [1, 2, 3]\nkeep = ["events"]')
+    assert campaign("run") == 0
+    campaign("pack", "kept.parquet")
+    shutil.move(tmp_path / "here", tmp_path / "before")
+    next((tmp_path / "before" / "events").rglob("*2.parquet")).unlink()
+    capsys.readouterr()
+    assert exit_code(["campaign", "adopt", "study.toml", "kept.parquet", "--out", "here"]) == 0
+    assert "; 3 are without the events that the design keeps: run them again" in capsys.readouterr().out
+    assert exit_code(["campaign", "adopt", "study.toml", "before", "--out", "here"]) == 0
+    said = capsys.readouterr().out
+    assert "2 runs taken over" in said and "; 1 are without the events" in said
+    assert len(list((tmp_path / "here" / "events").rglob("*.parquet"))) == 2
+    assert campaign("run") == 0
+    assert "1 now" in capsys.readouterr().out
+    outdated(tmp_path / "kept.parquet")
+    assert exit_code(["campaign", "adopt", "study.toml", "kept.parquet", "--out", "other", "--repeat", "1"]) == 0
+    assert "; 0 of other sources taken over" in capsys.readouterr().out
+
+
 def test_a_folder_that_contradicts_is_not_taken_over(tmp_path, capsys):
     (tmp_path / "study.toml").write_text(f'name = "walk"\nsystem = "{WALK}"\nseeds = [1, 2]')
     campaign("run")

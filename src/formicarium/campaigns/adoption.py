@@ -28,6 +28,7 @@ class Adopted(NamedTuple):
     new: int  # rows taken over
     known: int  # rows that were there already
     other: int  # rows that belong to no run of the design: other parameters, seeds or sources
+    bare: int  # rows without a table that the design keeps, which were left
 
 
 def rows_in(folder: Path) -> pa.Table:
@@ -42,7 +43,7 @@ def rows_in(folder: Path) -> pa.Table:
 
 
 def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, keep: Sequence[str] = ()) -> Adopted:
-    """Take over those rows of a folder that the jobs want, with the tables that they keep.
+    """Take over those rows of a folder that the jobs want, with the tables that they keep; rows without those are left.
 
     Raises:
         StoreError: if a row contradicts one that is there.
@@ -51,9 +52,10 @@ def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, kee
     keys = list(zip(rows["identity"].to_pylist(), rows["seed"].to_pylist()))
     ours = [place for place, key in enumerate(keys) if key in wanted]
     with writer.transaction() as ledger:
-        new = [place for place in ours if keys[place] not in ledger.done]
-        _check_same(ledger, rows.take(pa.array(sorted({*ours} - {*new}), pa.int64())), folder)
-        for place in ours:
+        missing = [place for place in ours if keys[place] not in ledger.done]
+        new = [place for place in missing if all(_table_of(folder, ledger, name, keys[place]) for name in keep)]
+        _check_same(ledger, rows.take(pa.array(sorted({*ours} - {*missing}), pa.int64())), folder)
+        for place in sorted({*ours} - {*missing} | {*new}):
             for name in keep:
                 _copy_table(folder, ledger, name, keys[place])
         if new:
@@ -61,7 +63,7 @@ def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, kee
             found = rows.take(pa.array(new, pa.int64()))
             index = found.column_names.index("factors")
             writer.add(found.set_column(index, "factors", pa.array(factors)))
-    return Adopted(len(new), len(ours) - len(new), len(keys) - len(ours))
+    return Adopted(len(new), len(ours) - len(missing), len(keys) - len(ours), len(missing) - len(new))
 
 
 class Repeated(NamedTuple):
@@ -188,10 +190,14 @@ def _check_same(ledger: Ledger, known: pa.Table, folder: Path) -> None:
             )
 
 
-def _copy_table(folder: Path, ledger: Ledger, name: str, key: tuple[str, int]) -> None:
+def _table_of(folder: Path, ledger: Ledger, name: str, key: tuple[str, int]) -> Path | None:
     target = ledger.table_path(name, key)
     places = (folder / name / key[0] / target.name, folder / name / target.name)
-    source = next((place for place in places if place.exists()), None)
+    return next((place for place in places if place.exists()), None)
+
+
+def _copy_table(folder: Path, ledger: Ledger, name: str, key: tuple[str, int]) -> None:
+    source, target = _table_of(folder, ledger, name, key), ledger.table_path(name, key)
     if source is not None and not target.exists():
         with replacing(target) as temporary:
             shutil.copyfile(source, temporary)

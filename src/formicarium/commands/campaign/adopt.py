@@ -13,7 +13,8 @@ def adopt(
     from another machine, or a file of "campaign pack". Nothing in it is changed.
     Rows that other sources made belong to other runs, and stay where they are;
     with --repeat they are taken over too, as rows of today's sources, if so many
-    of them come out the same in every column when they are run again.
+    of them come out the same in every column when they are run again. Where the
+    design keeps tables ("keep"), runs without theirs are left, to be run again.
 
     Examples:
 
@@ -56,4 +57,8 @@ def adopt(
             writer.note_session({**session(sys.argv, PACKAGE, LIBRARIES), "repeated": repeated.seeds})
             more = take_over(writer, study.jobs, Path(place), repeated.rows, study.design.keep)
             text += f"; {more.new} of other sources taken over, {len(repeated.seeds)} of them repeated: the same"
+            found = found._replace(bare=found.bare + more.bare)
+        if found.bare:
+            kept = " and ".join(study.design.keep)
+            text += f"; {found.bare} are without the {kept} that the design keeps: run them again"
     screen.print(text, highlight=False)
