@@ -170,7 +170,7 @@ class SharedCache:
         return self._parts[frozenset()].cache_path
 
 
-# Made of many arrays: to hand one over takes as long as the distances to twenty neighbours.
+# Names of arguments that are made of many arrays, which are handed over one by one.
 LARGE = ("state", "world", "solver")
 
 

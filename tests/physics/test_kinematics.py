@@ -56,6 +56,14 @@ def test_head_on_both_stop_half_way():
     assert world.bodies.x == pytest.approx([0.1 - RADIUS, 0.1 + RADIUS], abs=1e-6)
 
 
+@pytest.mark.parametrize("key", [0, 1])
+def test_a_small_robot_and_a_large_one_meet_without_overlap(key):
+    """Centres further apart than three radii of the small one, and within reach of each other in one cycle."""
+    world = world_of([(0.0, 0.0, 0.0), (0.056, 0.0, math.pi)], forward=0.1, radius=[0.01, 0.04], key=[key, 1 - key])
+    run(world, 1)
+    assert world.bodies[1].x - world.bodies[0].x >= 0.05 - TOLERANCE
+
+
 def test_a_crowd_in_a_box_never_overlaps_by_more_than_half_a_millimetre():
     draws = np.random.default_rng(3)
     grid = [(0.09 * i, 0.09 * j, draws.uniform(-3, 3)) for i in range(6) for j in range(6)]

@@ -52,10 +52,11 @@ def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, kee
     keys = list(zip(rows["identity"].to_pylist(), rows["seed"].to_pylist()))
     ours = [place for place, key in enumerate(keys) if key in wanted]
     with writer.transaction() as ledger:
+        known = [place for place in ours if keys[place] in ledger.done]
         missing = [place for place in ours if keys[place] not in ledger.done]
         new = [place for place in missing if all(_table_of(folder, ledger, name, keys[place]) for name in keep)]
-        _check_same(ledger, rows.take(pa.array(sorted({*ours} - {*missing}), pa.int64())), folder)
-        for place in sorted({*ours} - {*missing} | {*new}):
+        _check_same(ledger, rows.take(pa.array(known, pa.int64())), folder)
+        for place in known + new:
             for name in keep:
                 _copy_table(folder, ledger, name, keys[place])
         if new:
@@ -63,7 +64,7 @@ def adopt(writer: Writer, jobs: Sequence[Job], folder: Path, rows: pa.Table, kee
             found = rows.take(pa.array(new, pa.int64()))
             index = found.column_names.index("factors")
             writer.add(found.set_column(index, "factors", pa.array(factors)))
-    return Adopted(len(new), len(ours) - len(missing), len(keys) - len(ours), len(missing) - len(new))
+    return Adopted(len(new), len(known), len(keys) - len(ours), len(missing) - len(new))
 
 
 class Repeated(NamedTuple):

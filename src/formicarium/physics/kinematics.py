@@ -75,9 +75,10 @@ def part_all(world):
         body = world.bodies[i]
         for k in range(world.neighbour_count[i]):
             near = world.neighbours[i, k]
-            if near.distance > 3.0 * body.radius or world.lists[near.index].rank < place:
+            other = world.bodies[near.index]
+            if near.distance > 2.0 * (body.radius + other.radius) or world.lists[near.index].rank < place:
                 continue
-            if part_pair(body, world.bodies[near.index], motions[i], motions[near.index]):
+            if part_pair(body, other, motions[i], motions[near.index]):
                 found = True
         cell = scenery_cell(world.settings[0], body.x, body.y)
         for member in range(world.scenery[cell], world.scenery[cell + 1]):
@@ -140,9 +141,9 @@ def hold_back(world):
         held = False
         for k in range(world.neighbour_count[i]):
             near = world.neighbours[i, k]
-            if near.distance > 3.0 * body.radius:
-                continue
             other = world.bodies[near.index]
+            if near.distance > 2.0 * (body.radius + other.radius):
+                continue
             reach = body.radius + other.radius - TOLERANCE
             held = held or (other.x - body.x) ** 2 + (other.y - body.y) ** 2 < reach * reach
         cell = scenery_cell(world.settings[0], body.x, body.y)

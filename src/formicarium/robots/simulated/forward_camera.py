@@ -29,9 +29,9 @@ def hidden_by_body(world, i, dx, dy, squared):
     for k in range(world.neighbour_count[i]):
         near = world.neighbours[i, k]
         across = near.dx * dy - near.dy * dx
-        if across * across < world.bodies[near.index].radius ** 2 * squared:
-            if 0.0 < near.dx * dx + near.dy * dy < squared:
-                return True
+        hidden = across * across < world.bodies[near.index].radius ** 2 * squared
+        if hidden and 0.0 < near.dx * dx + near.dy * dy < squared:
+            return True
     return False
 
 
