@@ -5,15 +5,21 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+import time
+from pathlib import Path
 
 import pytest
 
 pytest.importorskip("highspy", reason="needs the extra 'scheduling'")
 
+from formicarium.campaigns.files import StoreError
 from formicarium.commands import planning
+from formicarium.commands.folders import named_folder
 from formicarium.commands.planning import Wish, plan
 from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.reading import as_content
+from formicarium.scheduling.schedule import Answer
 
 
 def written(instance, folder):
@@ -53,6 +59,40 @@ def test_ctrl_c_ends_with_the_best_schedule_so_far(part, tmp_path, monkeypatch):
     done = [arm["task"] for slot in content["slots"] for arm in slot["arms"]]
     assert sorted(done) == sorted(f"t{k}" for k in range(1, 21))
     assert {path.name for path in (tmp_path / "plan").iterdir()} == {"schedule.json", "map.png", "gantt.png"}
+
+
+@pytest.mark.usefixtures("heard")
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX systems")
+def test_ctrl_c_is_heard_while_a_long_tour_is_measured(tmp_path):
+    instance = draw_instance(6, 0.05, 900, 60)
+    instance = instance._replace(priorities=tuple((f"t{k}", f"t{k + 1}") for k in range(1, 60)))
+    timer = threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT))
+    began = time.monotonic()
+    timer.start()
+    assert (
+        plan(Wish(str(written(instance, tmp_path)), "travel", "printed", 60.0, None, True, str(tmp_path / "p"))) == 130
+    )
+    assert time.monotonic() - began < 20.0
+    assert json.loads((tmp_path / "p" / "schedule.json").read_text())["ended"] == "interrupted"
+
+
+def test_where_nothing_can_be_written_nothing_is_searched(tmp_path, monkeypatch):
+    monkeypatch.setattr(planning, "solve", None)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(StoreError, match="Choose another folder"):
+        plan(Wish(str(written(draw_instance(2, 0.05, 900), tmp_path)), "time", "printed", 1.0, None, True,
+                  str(tmp_path / "file" / "x")))  # fmt: skip
+
+
+def test_a_name_never_leads_out_of_the_folder_of_results():
+    assert named_folder("schedule", "../../a b/[red]", "time") == Path("formicarium-results/schedule-a-b-red-time")
+    assert named_folder("schedule", "..") == Path("formicarium-results/schedule-own")
+
+
+def test_what_is_not_proven_is_told_as_a_share_of_the_best():
+    answer = Answer("time", None, 3.0, 2.0, 1.0, "none", "time limit")
+    assert answer.excess == 0.5 and answer.excess_in_words == "at most 50.00% above the best"
+    assert answer._replace(bound=0.0).excess_in_words == "no bound is known yet"
 
 
 @pytest.mark.parametrize("objective", ["time", "travel"])

@@ -59,3 +59,24 @@ def test_the_printed_octagon_reaches_farther_than_the_radio():
     assert faults(slot, instance=lone, reach="printed") == ""
     assert "out of reach" in faults(slot, instance=lone, reach="euclid")
     assert check(lone, Schedule((slot,)), "printed").over_radio == 1
+
+
+@pytest.mark.parametrize("reach", ["EUCLID", "circle", None])
+def test_an_unknown_reach_is_refused(reach):
+    with pytest.raises(ValueError, match="must be one of printed, inscribed, euclid"):
+        check(INSTANCE, GOOD, reach)
+    with pytest.raises(ValueError, match="time_limit"):
+        check(INSTANCE, GOOD, "euclid", float("nan"))
+
+
+@pytest.mark.parametrize("wrong", [FIRST._replace(x=float("nan")), FIRST._replace(duration=float("inf")),
+                                   FIRST._replace(arms=(Arm("near", "0"), Arm("far", 2.5)))])  # fmt: skip
+def test_what_is_no_number_is_a_fault(wrong):
+    assert "slot 1: " in faults(wrong, SECOND)
+
+
+def test_thousands_of_robots_are_counted():
+    crowd = INSTANCE._replace(teams=(Team(3000), Team(2000, frozenset({"dig"}))), priorities=())
+    crowd = crowd._replace(tasks=(Task("near", 1.0, 0.0, 2400, 3.0), TASKS[1], TASKS[2]._replace(robots=2001)))
+    said = faults(FIRST._replace(arms=(Arm("near", 0), Arm("far", 2))), SECOND, instance=crowd)
+    assert said == "slot 2: 1 robots with the right capabilities are lacking"

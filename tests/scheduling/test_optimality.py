@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from scheduling.polygons import travel_in_polygons
 from scheduling.small import small_instance
 
 pytest.importorskip("highspy")
@@ -131,6 +132,78 @@ def test_in_the_true_circle_no_arm_is_longer_than_the_radio_reaches(seed):
     answer = solve(instance, "travel", "euclid")
     verdict = check(instance, answer.schedule, "euclid", answer.time_limit)
     assert answer.proven and not verdict.faults and verdict.over_radio == 0
+
+
+def least_travel_in_the_circle(seed):
+    instance, charged = small_instance(seed, 4), seed % 2 == 0
+    answer = solve(instance, "travel", "euclid", 20.0, charge_first=charged)
+    assert answer.proven and answer.time_bound == answer.time_limit
+    least, most = travel_in_polygons(instance, answer.time_limit, charged)
+    assert least * (1 - 1e-6) - 1e-5 <= answer.value <= most * (1 + 1.2e-4) + 1e-5
+    assert answer.bound <= most + 1e-5
+    assert not check(instance, answer.schedule, "euclid", answer.time_limit).faults
+
+
+@pytest.mark.parametrize("seed", range(500, 512))
+def test_the_least_travel_in_the_true_circle_lies_between_those_of_polygons(seed):
+    """Arms that go on sticking out of their circle once passed for tours that cannot be (21 of 90 instances)."""
+    least_travel_in_the_circle(seed)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(4))
+def test_two_hundred_instances_in_the_true_circle(part):
+    for seed in range(2000 + 50 * part, 2050 + 50 * part):
+        least_travel_in_the_circle(seed)
+
+
+@pytest.mark.parametrize("scale", [1e-2, 1e4])
+@pytest.mark.parametrize("reach", ["printed", "inscribed", "euclid"])
+def test_hops_may_be_of_any_length(reach, scale):
+    for seed in (101, 103, 105):
+        known = solve(small_instance(seed, 4), "travel", reach)
+        instance = scaled(small_instance(seed, 4), scale)
+        answer = solve(instance, "travel", reach)
+        assert answer.proven and answer.value == pytest.approx(scale * known.value, rel=1.5e-4)
+        assert not check(instance, answer.schedule, reach, answer.time_limit).faults
+
+
+def scaled(instance, factor):
+    """The same instance, far off and in other units."""
+    x, y = 3e5 * factor, -5e5 * factor
+    region = tuple(factor * value + shift for value, shift in zip(instance.region, (x, y, x, y)))
+    return instance._replace(
+        tasks=tuple(task._replace(x=factor * task.x + x, y=factor * task.y + y) for task in instance.tasks),
+        region=region,
+        start=(factor * instance.start[0] + x, factor * instance.start[1] + y),
+        spacing=factor * instance.spacing,
+    )
+
+
+def test_durations_with_the_noise_of_floating_point_have_a_common_unit():
+    instance = small_instance(103, 4)
+    noisy = instance._replace(
+        tasks=tuple(task._replace(duration=0.1 * (k + 3)) for k, task in enumerate(instance.tasks))
+    )
+    clean = instance._replace(
+        tasks=tuple(task._replace(duration=float(k + 3)) for k, task in enumerate(instance.tasks))
+    )
+    found = [solve(one, "time", "printed") for one in (noisy, clean)]
+    assert found[0].proven and found[0].value == pytest.approx(0.1 * found[1].value)
+
+
+@pytest.mark.parametrize("tasks", [60, 300])
+def test_the_clock_is_heard_while_a_long_tour_is_measured(tasks):
+    instance = draw_instance(6, 0.05, 900, tasks)
+    chained = (
+        instance._replace(priorities=tuple((f"t{k}", f"t{k + 1}") for k in range(1, tasks)))
+        if tasks < 100
+        else instance
+    )
+    for limit in (1.0, 3.0):  # the first one compiles
+        answer = solve(chained, "travel", "printed", limit, processor_time=True)
+    assert answer.ended == "time limit" and answer.seconds < 2 * limit
+    assert answer.time_bound <= answer.time_limit and not check(chained, answer.schedule, "printed").faults
 
 
 @pytest.mark.long

@@ -1,11 +1,14 @@
 """Files become instances, and a wrong one gets a message that names the task and the reason."""
 
 import json
+import re
 
 import pytest
 
 from formicarium.scheduling.generator import CLASSES, draw_instance
 from formicarium.scheduling.instance import InstanceError
+from formicarium.scheduling.problem import problem_of
+from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.reading import as_content, instance_of, read_instance
 
 GOOD = {
@@ -50,6 +53,13 @@ def test_content_written_is_content_read():
         ({"teams": []}, "says nothing of the robots"),
         ({"spacing": 0}, "spacing = 0.0"),
         ({"paths": 0}, "paths = 0"),
+        ({"tasks.0.x": True}, "task 'a': x = True"),
+        ({"teams.0.robots": "5"}, "teams[0].robots = '5'"),
+        ({"tasks.0.duration": 1e300}, "task 'a': duration = 1e+300: must be from 1e-06 to 1e+09"),
+        ({"tasks.0.name": "a\0b"}, "characters that cannot be printed"),
+        ({"tasks.0.x": 1e300}, "at most 10000 hops"),
+        ({"teams.0.robots": 10**20}, "at most 1000000 can be scheduled"),
+        ({"paths": 10**20}, "paths = 100000000000000000000"),
         ({"region": [0, 0, 2, 9]}, "task 'b': place (3, 4) is outside the region"),
     ],
 )
@@ -71,6 +81,37 @@ def test_other_files_are_refused(tmp_path):
             read_instance(tmp_path / name, 5)
     with pytest.raises(InstanceError, match="cannot be read"):
         read_instance(tmp_path / "none.toml")
+
+
+def read(folder, name, text):
+    (folder / name).write_bytes(text.encode())
+    return read_instance(folder / name, 5)
+
+
+def test_what_spreadsheets_write_is_read(tmp_path):
+    """A byte order mark, and names with spaces parted by semicolons."""
+    lines = '\ufeffname,x,y,after\r\nbig job,1,2,\r\nb,2,2,\r\nlast,3,3,"big job; b"\r\n'
+    instance = read(tmp_path, "a.csv", lines)
+    assert instance.priorities == (("big job", "last"), ("b", "last"))
+    assert read(tmp_path, "a.toml", '\ufeff[[tasks]]\nname = "t"\nx = 1\ny = 1\n').tasks[0].name == "t"
+
+
+@pytest.mark.parametrize(("name", "text", "said"), [
+    ("a.json", '{"tasks": [{"name": "t", "x": 1, "y": 2}], "tasks": []}', "'tasks' is given twice"),
+    ("a.csv", "name,x,y,x\nt,1,2,3\n", "the column 'x' is there twice"),
+    ("a.csv", "name,x,y\nt,1,2\nu,1_0,2\n", "line 3: x = '1_0'"),
+    ("a.json", '{"a": ' + "[" * 100_000, "nested too deeply"),
+])  # fmt: skip
+def test_what_would_be_misread_is_refused(tmp_path, name, text, said):
+    with pytest.raises(InstanceError, match=re.escape(said)):
+        read(tmp_path, name, text)
+
+
+def test_a_dozen_groups_of_teams_are_the_most():
+    teams = [{"robots": 2, "abilities": [f"c{k}"]} for k in range(13)]
+    tasks = [{"name": f"t{k}", "x": k, "y": 0, "needs": [f"c{k}"]} for k in range(13)]
+    with pytest.raises(InstanceError, match="13 different groups of teams, at most 12"):
+        problem_of(instance_of({"teams": teams, "tasks": tasks}), Reach.PRINTED)
 
 
 def test_drawn_instances_are_what_section_iv_b_says():

@@ -39,6 +39,20 @@ def replacing(path: Path) -> Iterator[Path]:
         raise unwritable(path, error) from error
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder, or find that it is there.
+
+    Raises:
+        StoreError: if it cannot be made or written to.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        partial_name(path / "writable").touch()
+        partial_name(path / "writable").unlink()
+    except OSError as error:
+        raise unwritable(path, error) from error
+
+
 def unwritable(path: Path, error: OSError) -> StoreError:
     """Say that ``path`` cannot be written, and why."""
     reason = error.strerror or str(error)

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 WINDOWS = os.name == "nt"
+STRANGE = re.compile(r"[^\w.+-]+")
 UNWELCOME = re.compile(r'[<>:"/\\|?*@]+')  # in the name of a folder on Windows; @ is only awkward to type there
 
 
@@ -15,3 +16,8 @@ def results_folder(system: str, identity: str, windows: bool = WINDOWS) -> Path:
     """
     name = UNWELCOME.sub("-", system) if windows else system
     return Path("formicarium-results") / f"{name}-{identity[:8]}"
+
+
+def named_folder(kind: str, name: str, *more: str) -> Path:
+    """Return formicarium-results/KIND-NAME-MORE for a name that a person gave: never a path out of it."""
+    return Path("formicarium-results") / "-".join((kind, STRANGE.sub("-", name).strip("-.")[:80] or "own", *more))

@@ -7,15 +7,20 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from formicarium.campaigns.files import write_json
+from formicarium.campaigns.files import make_folder, write_json
+from formicarium.commands.folders import named_folder
 from formicarium.commands.progress import bars
 from formicarium.scheduling.checker import check
 from formicarium.scheduling.clock import News
+from formicarium.scheduling.deployment import find_place
+from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.instance import Instance
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.reading import as_content, read_instance
 from formicarium.scheduling.schedule import Answer, as_plain
 from formicarium.scheduling.solver import solve
+
+SAMPLE = (2, 0.05, 900, 8)  # arguments of draw_instance: small, and its search comes by most of what is compiled
 
 
 class Wish(NamedTuple):
@@ -40,34 +45,39 @@ def plan(wish: Wish) -> int:
     from formicarium.views.schedules import draw_gantt, draw_map
 
     instance = read_instance(wish.file, wish.robots)
+    folder = Path(wish.out) if wish.out else named_folder("schedule", instance.name, wish.objective, wish.reach)
+    make_folder(folder)  # what cannot be written is told before the search
     answer = _search(instance, wish)
     assert answer.schedule is not None  # every valid instance has one: a slot a task
     verdict = check(instance, answer.schedule, wish.reach, answer.time_limit)
     if verdict.faults:
         raise AssertionError(f"the checker refuses the schedule: {'; '.join(verdict.faults)}")
-    folder = Path(wish.out or f"formicarium-results/schedule-{instance.name or Path(wish.file).stem}")
+    _show(instance, answer, wish)
     content = as_plain(instance, answer, Reach[wish.reach.upper()], wish.charge_first)
     write_json(folder / "schedule.json", content | {"asked": as_content(instance)})
     written = [folder / "schedule.json"]
     written += [draw_map(instance, answer, folder / "map.png"), draw_gantt(instance, answer, folder / "gantt.png")]
-    _show(instance, answer, wish, written)
+    for path in written:
+        Console().print(f"results   {escape(str(path))}", highlight=False, soft_wrap=True)
     return 130 if answer.ended == "interrupted" else 0
 
 
 def _search(instance: Instance, wish: Wish) -> Answer:
     trouble = Console(stderr=True)
     with bars(trouble) as shown:
-        line = shown.add_task("first fit", total=None, words="")
+        line = shown.add_task("compiling, once" if find_place.is_new() else "first fit", total=None, words="")
+        if find_place.is_new():  # else it would use up the time limit
+            solve(draw_instance(*SAMPLE), wish.objective)
 
         def told(news: News) -> None:
-            gap = (news.value - news.bound) / news.value if news.value else 0.0
-            words = f"best {news.value:.6g}, bound {news.bound:.6g}, gap {gap:.1%}"
+            gap = f"{(news.value - news.bound) / news.value:.1%}" if news.value else "none"
+            words = f"best {news.value:.6g}, bound {news.bound:.6g}, gap {gap}"
             shown.update(line, description=news.part, words=words)
 
         return solve(instance, wish.objective, wish.reach, wish.time_limit, charge_first=wish.charge_first, told=told)
 
 
-def _show(instance: Instance, answer: Answer, wish: Wish, written: list[Path]) -> None:
+def _show(instance: Instance, answer: Answer, wish: Wish) -> None:
     screen = Console()
     schedule = answer.schedule
     assert schedule is not None
@@ -87,9 +97,9 @@ def _show(instance: Instance, answer: Answer, wish: Wish, written: list[Path]) -
     unit = "" if wish.objective == "time" else " m"
     known = {
         "proven": "proven best",
-        "time limit": f"the time limit came: at most {answer.gap:.2%} above the best",
-        "gave up": f"at most {answer.gap:.2%} above the best; it has tried what it knows",
-        "interrupted": f"interrupted: at most {answer.gap:.2%} above the best",
+        "time limit": f"the time limit came: {answer.excess_in_words}",
+        "gave up": f"{answer.excess_in_words}; it has tried what it knows",
+        "interrupted": f"interrupted: {answer.excess_in_words}",
     }[answer.ended]
     screen.print(
         f"\n[bold]{what} {answer.value:.6g}{unit}[/bold], lower bound {answer.bound:.6g} ({answer.proof}): {known}; "
@@ -101,5 +111,9 @@ def _show(instance: Instance, answer: Answer, wish: Wish, written: list[Path]) -
         f"{instance.robots} robots, one of them the master",
         highlight=False,
     )
-    for path in written:
-        screen.print(f"results   {path}", highlight=False, soft_wrap=True)
+    if wish.objective == "travel" and answer.time_bound < schedule.time - 1e-6:
+        screen.print(
+            f"it may be that less time does: at least {answer.time_bound:g} is needed; more time for the search, or "
+            "--objective time, would tell",
+            highlight=False,
+        )

@@ -28,8 +28,8 @@ def schedule(
         well,2.5,7.0,3,1                robots = 12           name = "well"
         gate,9.0,1.5,2,4                abilities = ["dig"]   x = 2.5
 
-    More fields of a task: needs (capabilities), after (tasks that come first). Of the
-    file: region, start, spacing (one hop, m), paths (disjoint ways to each task).
+    More fields of a task: needs (capabilities), after (tasks that come first; in a CSV
+    parted by semicolons). Of the file: region, start, spacing (one hop, m), paths (disjoint ways to each task).
     The guide: docs/guides/scheduling.md. Needs the extra "scheduling".
 
     Leaves schedule.json, map.png and gantt.png. Ctrl-C ends the search with the best
@@ -58,7 +58,7 @@ def schedule(
     first_hop_free
         Do not count the way from the start to the first deployment point, as in the paper.
     out
-        Folder of the results; formicarium-results/schedule-NAME if not given.
+        Folder of the results; formicarium-results/schedule-NAME-OBJECTIVE-REACH if not given.
     """
     import math
 

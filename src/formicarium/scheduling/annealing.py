@@ -27,7 +27,7 @@ def anneal(
     work = np.empty((5, cells), np.float32)
     rows = [problem.demands, problem.limits]
     improve(
-        masks, best, lattice.hops, lattice.first, lattice.side, *lattice.step, lattice.arm, problem.paths, *rows,
+        masks, best, lattice.hops, lattice.first, lattice.side, *lattice.step, problem.paths, *rows,
         problem.ticks, ticks, tries, stream(number, "annealing"), np.empty((count, cells), np.float32), work,
         np.empty(cells, np.int16), np.empty(lattice.side, np.float32), np.empty(count, np.int64),
     )  # fmt: skip
@@ -36,13 +36,13 @@ def anneal(
 
 @compiled
 def improve(
-    masks, best, hops, first, side, step_x, step_y, arm, paths, demands, limits,
+    masks, best, hops, first, side, step_x, step_y, paths, demands, limits,
     durations, ticks, tries, random, grids, work, sums, line, old,
 ):  # fmt: skip
     """Anneal ``masks`` in place and leave the best ones in ``best``; return their cost."""
     slots, size = len(masks), len(durations)
     for slot in range(slots):
-        cost_of(masks[slot], hops, arm, paths, demands, limits, sums, grids[slot])
+        cost_of(masks[slot], hops, paths, demands, limits, sums, grids[slot])
     now = tour_cost(masks, grids, first, side, step_x, step_y, work, line)
     least = now
     hot = 0.1 * min(now, 1e6) + 1.0
@@ -90,7 +90,7 @@ def improve(
         if fits:
             for slot in range(slots):
                 if masks[slot] != old[slot]:
-                    fits = cost_of(masks[slot], hops, arm, paths, demands, limits, sums, grids[slot]) and fits
+                    fits = cost_of(masks[slot], hops, paths, demands, limits, sums, grids[slot]) and fits
         cost = tour_cost(masks, grids, first, side, step_x, step_y, work, line) if fits else 1e30
         if cost < 1e29 and (cost <= now or uniform(derived(draws, 5)) < np.exp((now - cost) / cooled)):
             now = cost
@@ -102,7 +102,7 @@ def improve(
             for slot in range(slots):
                 if masks[slot] != old[slot]:
                     masks[slot] = old[slot]
-                    cost_of(masks[slot], hops, arm, paths, demands, limits, sums, grids[slot])
+                    cost_of(masks[slot], hops, paths, demands, limits, sums, grids[slot])
     return least
 
 
@@ -122,7 +122,7 @@ def pick(mask, draw, size):
 
 
 @compiled
-def cost_of(mask, hops, arm, paths, demands, limits, sums, out):
+def cost_of(mask, hops, paths, demands, limits, sums, out):
     """Fill in the cost of a slot's arms cell by cell and tell whether its robots are there at all."""
     fits = True
     spare = limits[0]
@@ -134,7 +134,7 @@ def cost_of(mask, hops, arm, paths, demands, limits, sums, out):
         if row == 0:
             spare = (limits[0] - used) // paths
         fits = fits and used <= limits[row]
-    stand(mask, hops, spare, arm, sums, out)
+    stand(mask, hops, spare, sums, out)
     return fits
 
 

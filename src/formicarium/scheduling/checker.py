@@ -1,19 +1,25 @@
 """The independent judge of schedules. It shares no code with the solvers and computes in whole numbers only.
 
-Lengths are rounded to nanometres once, and every comparison after that is exact. A schedule may be off by
-``SLACK`` nanometres at each task, because deployment points are written with a finite number of digits.
+Lengths are rounded to nanometres once, and every comparison after that is exact. An arm may be too short by a
+millionth of a hop, because deployment points are written with a finite number of digits.
 """
 
 import itertools
+import math
 from collections.abc import Sequence
 from math import isqrt
 from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import maximum_flow
 
 from formicarium.scheduling.instance import Instance, Task
 from formicarium.scheduling.schedule import Schedule, Slot
 
 NANOMETRES = 10**9
-SLACK = 1000  # nm
+SLACK, ROUNDED = 1e-6, 2  # hops; nm: a place and a deployment point, along both axes
+REACHES = ("printed", "inscribed", "euclid")
 # cos^2(pi / 8) = (2 + sqrt 2) / 4, rounded up in the tenth digit: the inscribed octagon
 INNER_SQUARE = (2 * 10**10 + isqrt(2 * 10**20) + 1, 4 * 10**10)
 
@@ -37,7 +43,16 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
         schedule: what came of it.
         reach: "printed", "inscribed" or "euclid", see (7) to (9) of the paper.
         time_limit: that the completion time must not exceed.
+
+    Raises:
+        ValueError: if the reach is none of these, or the limit is no number.
     """
+    if reach not in REACHES:
+        raise ValueError(f"reach = {reach!r}: must be one of {', '.join(REACHES)}")
+    if time_limit is not None and math.isnan(time_limit):
+        raise ValueError("time_limit = nan: must be a number")
+    if strange := _strange(schedule):
+        return Verdict(strange, math.nan, math.nan, math.nan, 0, 0)
     tasks = {task.name: task for task in instance.tasks}
     faults = _faults_of_cover(instance, schedule)
     over_radio = 0
@@ -69,6 +84,18 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     return Verdict(tuple(faults), time, trip / NANOMETRES, outward / NANOMETRES, relays, over_radio)
 
 
+def _strange(schedule: Schedule) -> tuple[str, ...]:
+    """Return what is no number in a schedule: nothing else can be judged then."""
+    faults = []
+    for number, slot in enumerate(schedule.slots, 1):
+        if not all(map(math.isfinite, (slot.x, slot.y, slot.duration))):
+            faults.append(f"slot {number}: ({slot.x}, {slot.y}) for {slot.duration} is no place and time")
+        for arm in slot.arms:
+            if not isinstance(arm.relays, int):
+                faults.append(f"slot {number}: {arm.task}: {arm.relays!r} is no whole number of relays")
+    return tuple(faults)
+
+
 def _nano(length: float) -> int:
     return round(length * NANOMETRES)
 
@@ -92,7 +119,8 @@ def _faults_of_slot(instance: Instance, slot: Slot, present: Sequence[Task]) -> 
         faults.append(f"{lacking} robots with the right capabilities are lacking")
     x0, y0, x1, y1 = map(_nano, instance.region)
     x, y = _nano(slot.x), _nano(slot.y)
-    if not (x0 - SLACK <= x <= x1 + SLACK and y0 - SLACK <= y <= y1 + SLACK):
+    slack = _slack(instance)
+    if not (x0 - slack <= x <= x1 + slack and y0 - slack <= y <= y1 + slack):
         faults.append("the deployment point is outside the region")
     longest = max((task.duration for task in present), default=0.0)
     if abs(slot.duration - longest) > 1e-9:
@@ -101,26 +129,25 @@ def _faults_of_slot(instance: Instance, slot: Slot, present: Sequence[Task]) -> 
 
 
 def _lacking(instance: Instance, present: Sequence[Task]) -> int:
-    """Return how many demanded robots find no place, by a largest assignment (augmenting paths)."""
-    seats = [task for task in present for _ in range(task.robots)]
-    crew = [team for team in instance.teams for _ in range(team.robots)]
-    holder: dict[int, int] = {}  # robot -> seat
+    """Return how many demanded robots are not there, by the largest flow from teams to tasks."""
+    teams, tasks = len(instance.teams), len(present)
+    source, sink = teams + tasks, teams + tasks + 1
+    room = np.zeros((sink + 1, sink + 1), np.int32)
+    for number, team in enumerate(instance.teams):
+        room[source, number] = team.robots
+        for place, task in enumerate(present):
+            room[number, teams + place] = task.robots if task.needs <= team.abilities else 0
+    room[teams : teams + tasks, sink] = [task.robots for task in present]
+    return int(sum(task.robots for task in present) - maximum_flow(csr_array(room), source, sink).flow_value)
 
-    def seated(seat: int, tried: set[int]) -> bool:
-        for robot, team in enumerate(crew):
-            if robot not in tried and seats[seat].needs <= team.abilities:
-                tried.add(robot)
-                if robot not in holder or seated(holder[robot], tried):
-                    holder[robot] = seat
-                    return True
-        return False
 
-    return sum(not seated(seat, set()) for seat in range(len(seats)))
+def _slack(instance: Instance) -> int:
+    return ROUNDED + math.ceil(SLACK * _nano(instance.spacing))
 
 
 def _reached(instance: Instance, slot: Slot, task: Task, relays: int, reach: str) -> bool:
     hops = relays // instance.paths + 1
-    radius = hops * _nano(instance.spacing) + SLACK
+    radius = hops * _nano(instance.spacing) + _slack(instance)
     across, up = abs(_nano(task.x) - _nano(slot.x)), abs(_nano(task.y) - _nano(slot.y))
     if reach == "euclid":
         return across**2 + up**2 <= radius**2

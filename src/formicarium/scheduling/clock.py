@@ -30,6 +30,7 @@ class Clock:
         self._began = self._now()
         self._limit = limit
         self._told = told
+        self.unit = 1.0  # of bounds and values that are told
 
     @property
     def seconds(self) -> float:
@@ -49,4 +50,4 @@ class Clock:
     def tell(self, part: str, bound: float, value: float) -> None:
         """Pass on how far the work is."""
         if self._told:
-            self._told(News(part, bound, value))
+            self._told(News(part, bound * self.unit, value * self.unit))

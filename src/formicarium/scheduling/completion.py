@@ -84,7 +84,7 @@ class Search:
         return self.best.bound < self.best.value
 
     def _tell(self, part: str) -> None:
-        self.clock.tell(part, self.best.bound * self.problem.unit, self.best.value * self.problem.unit)
+        self.clock.tell(part, self.best.bound, self.best.value)
 
     def _relax(self, covering: Covering) -> tuple[list[Layer], Cover]:
         """Bound the number of slots that last at least so long, from the longest tasks to all, then the time."""

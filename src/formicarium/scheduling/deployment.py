@@ -12,14 +12,14 @@ from formicarium.compiled import compiled
 from formicarium.scheduling.problem import Problem
 from formicarium.scheduling.reach import EUCLID, INNER, INSCRIBED, SQRT_HALF, TOLERANCE, apart, distance, relays
 
-SMALLEST = 1e-9  # of the spacing: a box of that size is a point
+SMALLEST = 1e-9  # hops: a box of that size is a point
 DEPTH = 4096  # boxes that wait
 
 
 class Deployment(NamedTuple):
     """A point and the relays of each path to each task of a set."""
 
-    x: float
+    x: float  # hops from the corner of the region
     y: float
     hops: np.ndarray  # (n,) relays on one path
 
@@ -47,25 +47,24 @@ class Places:
             self._known[key] = self.within(tasks, self.spare(tasks))
         return self._known[key]
 
-    def within(self, tasks: np.ndarray, most: int, region: np.ndarray | None = None) -> Deployment | None:
+    def within(self, tasks: np.ndarray, most: int) -> Deployment | None:
         """Return a point of the region from which the tasks need at most so many relays a path, or None."""
         problem = self.problem
-        region = problem.region if region is None else region
         if most < 0:
             return None
         places = problem.places[tasks]
-        found = find_place(places, problem.spacing, problem.reach, region, most, self._boxes, self._hops, self._found)
+        found = find_place(places, problem.reach, problem.region, most, self._boxes, self._hops, self._found)
         if found < 0:
             raise MemoryError("the search for a deployment point does not end")
         if not found:
             return None
         x, y = (float(value) for value in self._found)
-        hops = [relays(distance(px - x, py - y, problem.reach), problem.spacing - SMALLEST) for px, py in places]
+        hops = [relays(distance(px - x, py - y, problem.reach) * (1.0 + SMALLEST)) for px, py in places]
         return Deployment(x, y, self._hops[: len(tasks)].copy() if sum(hops) > most else np.array(hops))
 
 
 @compiled
-def find_place(places, spacing, reach, region, most, boxes, hops, found):
+def find_place(places, reach, region, most, boxes, hops, found):
     """Find a point from which all tasks need at most ``most`` relays a path together.
 
     Returns:
@@ -80,12 +79,12 @@ def find_place(places, spacing, reach, region, most, boxes, hops, found):
         total = 0
         for task in range(count):
             dx, dy = apart(places[task, 0], x0, x1), apart(places[task, 1], y0, y1)
-            hops[task] = relays(distance(dx, dy, reach), spacing)
+            hops[task] = relays(distance(dx, dy, reach))
             total += hops[task]
         if total > most:
             continue
         if reach != EUCLID:
-            if meet(places[:, 0], places[:, 1], hops, count, spacing, reach, x0, y0, x1, y1, found):
+            if meet(places[:, 0], places[:, 1], hops, count, reach, x0, y0, x1, y1, found):
                 return 1
             if total == most:
                 continue
@@ -94,17 +93,17 @@ def find_place(places, spacing, reach, region, most, boxes, hops, found):
         if reach == EUCLID:
             here = 0
             for task in range(count):
-                here += relays(distance(places[task, 0] - middle_x, places[task, 1] - middle_y, reach), spacing)
+                here += relays(distance(places[task, 0] - middle_x, places[task, 1] - middle_y, reach))
             if here <= most:
                 for task in range(count):
                     away = distance(places[task, 0] - middle_x, places[task, 1] - middle_y, reach)
-                    hops[task] = relays(away, spacing)
+                    hops[task] = relays(away)
                 found[0], found[1] = middle_x, middle_y
                 return 1
             # three octagons around the circles: what they leave empty, the circles do too
-            if total == most and not meet(places[:, 0], places[:, 1], hops, count, spacing, 0, x0, y0, x1, y1, found):
+            if total == most and not meet(places[:, 0], places[:, 1], hops, count, 0, x0, y0, x1, y1, found):
                 continue
-        if wide <= SMALLEST * spacing:
+        if wide <= SMALLEST:
             found[0], found[1] = middle_x, middle_y
             return 1
         if waiting + 2 > len(boxes):
@@ -120,11 +119,11 @@ def find_place(places, spacing, reach, region, most, boxes, hops, found):
 
 
 @compiled
-def meet(xs, ys, hops, count, spacing, reach, x0, y0, x1, y1, found):
+def meet(xs, ys, hops, count, reach, x0, y0, x1, y1, found):
     """Tell whether octagons around tasks, ``hops`` + 1 steps wide, share a point with a box, and give one."""
     plus_low, plus_high, minus_low, minus_high = x0 + y0, x1 + y1, x0 - y1, x1 - y0
     for task in range(count):
-        radius = (hops[task] + 1 + TOLERANCE) * spacing
+        radius = hops[task] + 1 + TOLERANCE
         if reach == INSCRIBED:
             radius *= INNER
         x, y = xs[task], ys[task]

@@ -14,7 +14,7 @@ class Bounded(Protocol):
 
     @property
     def bound(self) -> float:
-        """Least cost, m."""
+        """Least cost, hops."""
         ...
 
 

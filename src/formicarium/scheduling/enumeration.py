@@ -20,7 +20,7 @@ STEPS_A_SECOND = 400_000  # of growing sets, roughly: a hundred looks at cells e
 def cell_demands(problem: Problem, cells: int) -> np.ndarray:
     """Return (cells^2, T): robots that each task takes of the swarm when the master is somewhere in the cell."""
     found = np.empty((cells * cells, problem.size), np.int64)
-    arguments = (problem.robots, problem.spacing, problem.paths, problem.reach, problem.region)
+    arguments = (problem.robots, problem.paths, problem.reach, problem.region)
     _fill_cells(problem.places, *arguments, cells, found)
     return found
 
@@ -89,14 +89,14 @@ def _kept(found: np.ndarray, tasks: np.ndarray, places: Places, largest: bool) -
 
 
 @compiled
-def _fill_cells(places, robots, spacing, paths, reach, region, cells, found):
+def _fill_cells(places, robots, paths, reach, region, cells, found):
     wide, high = (region[2] - region[0]) / cells, (region[3] - region[1]) / cells
     for column in range(cells):
         for line in range(cells):
             x0, y0 = region[0] + column * wide, region[1] + line * high
             for task in range(len(places)):
                 dx, dy = apart(places[task, 0], x0, x0 + wide), apart(places[task, 1], y0, y0 + high)
-                found[column * cells + line, task] = robots[task] + paths * relays(distance(dx, dy, reach), spacing)
+                found[column * cells + line, task] = robots[task] + paths * relays(distance(dx, dy, reach))
 
 
 @compiled

@@ -15,15 +15,15 @@ PRECISE = 1e-5  # relative
 
 
 def gathering_bound(problem: Problem, charge_first: bool, goal: float) -> float:
-    """Return a lower bound of (14), in metres; ``goal`` and more is not looked for."""
+    """Return a lower bound of (14), in hops; ``goal`` and more is not looked for."""
     heap = np.empty((MOST_BOXES + 16, 9))
     start = problem.start if charge_first else np.array([np.nan, np.nan])
-    arguments = (problem.places, problem.spacing, problem.reach, problem.region, float(problem.swarm), start)
+    arguments = (problem.places, problem.reach, problem.region, float(problem.swarm), start)
     return min(float(bound_boxes(*arguments, goal, heap, MOST_BOXES)), goal)
 
 
 @compiled
-def bound_boxes(places, spacing, reach, region, swarm, start, goal, heap, most):
+def bound_boxes(places, reach, region, swarm, start, goal, heap, most):
     """Return the least cost over all boxes, by best-first search over ranges of their four sides.
 
     A node says: left side in [n0, n1], right side in [n2, n3], lower side in [n4, n5], upper side in [n6, n7].
@@ -52,15 +52,15 @@ def bound_boxes(places, spacing, reach, region, swarm, start, goal, heap, most):
             heap[count - 1, k] = heap[0, k]
         heap[0, 2 * side + 1] = middle
         heap[count - 1, 2 * side] = middle
-        heap[0, 8] = max(least, cost_of_box(heap[0], places, spacing, reach, swarm, start))
-        heap[count - 1, 8] = max(least, cost_of_box(heap[count - 1], places, spacing, reach, swarm, start))
+        heap[0, 8] = max(least, cost_of_box(heap[0], places, reach, swarm, start))
+        heap[count - 1, 8] = max(least, cost_of_box(heap[count - 1], places, reach, swarm, start))
         sink(heap, 0, count)
         rise(heap, count - 1)
     return heap[0, 8]
 
 
 @compiled
-def cost_of_box(node, places, spacing, reach, swarm, start):
+def cost_of_box(node, places, reach, swarm, start):
     """Return what every tour of such a box costs at least; infinite where no box is."""
     if node[0] > node[3] or node[4] > node[7]:
         return 1e300
@@ -69,7 +69,7 @@ def cost_of_box(node, places, spacing, reach, swarm, start):
         cost += swarm * (apart(start[0], node[0], node[3]) + apart(start[1], node[4], node[7]))
     for task in range(len(places)):
         dx, dy = apart(places[task, 0], node[0], node[3]), apart(places[task, 1], node[4], node[7])
-        cost += spacing * relays(distance(dx, dy, reach), spacing)
+        cost += relays(distance(dx, dy, reach))
     return cost
 
 

@@ -93,7 +93,7 @@ class Growing(Descent[End]):
                 self._arms.clear()
             problem, costs = self.problem, np.empty(self.fine.side**2, np.float32)
             spare = spare_of(chosen, problem.robots, problem.limits[0], problem.paths)
-            stand(chosen, self.fine.hops, spare, np.float32(self.fine.arm), self._sums, costs)
+            stand(chosen, self.fine.hops, spare, self._sums, costs)
             self._arms[chosen] = costs
         return self._arms[chosen]
 

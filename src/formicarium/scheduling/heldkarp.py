@@ -37,7 +37,7 @@ class Steps:
         for task in range(problem.size):
             self.earlier[sets >> task & 1 == 1] |= earlier[task]
         self.costs = np.empty((len(sets), cells), np.float32)
-        stand_all(sets, lattice.hops, problem.robots, problem.limits[0], problem.paths, np.float32(lattice.arm),
+        stand_all(sets, lattice.hops, problem.robots, problem.limits[0], problem.paths,
                   np.empty(cells, np.int16), self.costs)  # fmt: skip
 
 
@@ -123,10 +123,10 @@ class HeldKarp:
 
 
 @compiled
-def stand_all(sets, hops, robots, limit, paths, arm, sums, costs):
+def stand_all(sets, hops, robots, limit, paths, sums, costs):
     """Fill ``costs`` (n, cells) with what the arms of each set cost from each cell."""
     for number in range(len(sets)):
-        stand(sets[number], hops, spare_of(sets[number], robots, limit, paths), arm, sums, costs[number])
+        stand(sets[number], hops, spare_of(sets[number], robots, limit, paths), sums, costs[number])
 
 
 def _inside(side: int, other: int) -> np.ndarray:

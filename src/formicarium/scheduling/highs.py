@@ -10,7 +10,7 @@ from contextlib import contextmanager
 import highspy
 import numpy as np
 
-from formicarium.scheduling.clock import Clock
+from formicarium.scheduling.clock import Clock, OutOfTime
 
 INFINITY = highspy.kHighsInf
 
@@ -95,7 +95,8 @@ class Mixed:
             highs.setOptionValue("objective_bound", cutoff)
         if clock.on_the_wall and np.isfinite(until):  # HiGHS knows no other; its presolve does not ask the callbacks
             highs.setOptionValue("time_limit", max(0.0, until - clock.seconds))
-        with _interruptible() as stopped:
+        stopped: list[int] = []
+        with _interruptible(stopped):
             for event in (highs.cbMipInterrupt, highs.cbSimplexInterrupt):
                 event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.seconds > until))
             highs.run()
@@ -110,12 +111,27 @@ class Mixed:
 class Small:
     """Small programmes one after the other, all rows "at most", given as arrays."""
 
-    def __init__(self) -> None:
-        """Prepare."""
-        self._highs = _quiet()
+    def __init__(self, clock: Clock, precise: bool = False, interior: bool = False):
+        """Prepare.
+
+        Args:
+            clock: heard while a programme is solved: big ones take minutes.
+            precise: keep rows and whole numbers to 1e-9 instead of 1e-6.
+            interior: of many best answers give one amidst them, no corner.
+        """
+        self._highs, self._clock = _quiet(), clock
+        self._stopped = stopped = list[int]()
+        if precise:
+            for name in ("mip_feasibility_tolerance", "primal_feasibility_tolerance"):
+                self._highs.setOptionValue(name, 1e-9)
+        if interior:
+            self._highs.setOptionValue("solver", "ipm")
+            self._highs.setOptionValue("run_crossover", "off")
+        for event in (self._highs.cbMipInterrupt, self._highs.cbSimplexInterrupt):
+            event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.left <= 0.0))
 
     def solve(
-        self, programme: tuple[np.ndarray, ...], whole: np.ndarray | None, clock: Clock, cutoff: float
+        self, programme: tuple[np.ndarray, ...], whole: np.ndarray | None, cutoff: float
     ) -> tuple[float, np.ndarray | None]:
         """Return the least cost and the variables; infinite and None if nothing is below the cutoff.
 
@@ -123,10 +139,13 @@ class Small:
             programme: cost (n,), lower and upper bound (n,) of the variables; starts (m + 1,) of the rows in the
                 next two; variables and coefficients of the rows; limits (m,) of the rows.
             whole: numbers of the variables that must be whole; None for none.
-            clock: looked at before; a small programme runs to its end, so that no answer is a matter of time.
             cutoff: costs that are not below are of no interest.
+
+        Raises:
+            OutOfTime: if the limit has come; an answer is never a matter of time.
+            KeyboardInterrupt: on Ctrl-C, after HiGHS has ended in good order.
         """
-        clock.check()
+        self._clock.check()
         highs, model = self._highs, highspy.HighsLp()
         cost, low, high, starts, index, value, limits = programme
         model.num_col_, model.num_row_ = len(cost), len(limits)
@@ -143,9 +162,11 @@ class Small:
         highs.setOptionValue("objective_bound", cutoff)
         highs.setOptionValue("mip_rel_gap", 1e-7)
         highs.passModel(model)
-        with _interruptible():
+        with _interruptible(self._stopped):
             highs.run()
         status, info = highs.getModelStatus(), highs.getInfo()
+        if status == highspy.HighsModelStatus.kInterrupt:
+            raise OutOfTime
         if status in (highspy.HighsModelStatus.kObjectiveBound, highspy.HighsModelStatus.kInfeasible):
             return INFINITY, None
         if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
@@ -177,15 +198,15 @@ def _hushed() -> Iterator[None]:
 
 
 @contextmanager
-def _interruptible() -> Iterator[list[int]]:
+def _interruptible(stopped: list[int]) -> Iterator[None]:
     """Note a Ctrl-C in the list instead of raising it in the middle of foreign code; raise it at the end."""
-    stopped: list[int] = []
     if threading.current_thread() is not threading.main_thread():
-        yield stopped
+        yield
         return
+    stopped.clear()
     previous = signal.signal(signal.SIGINT, lambda number, _: stopped.append(number))
     try:
-        yield stopped
+        yield
     finally:
         signal.signal(signal.SIGINT, previous)
     if stopped:

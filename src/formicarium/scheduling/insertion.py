@@ -39,7 +39,7 @@ class Insertions:
         least_arms = np.empty(problem.size)
         insert(
             tour, sets, left, np.float32(goal), lattice.hops, lattice.first, lattice.side, np.float32(lattice.step[0]),
-            np.float32(lattice.step[1]), lattice.free, np.float32(lattice.arm), problem.robots, problem.limits[0],
+            np.float32(lattice.step[1]), lattice.free, problem.robots, problem.limits[0],
             problem.paths, self._ahead, self._behind, self._places, self._own, self._moved, self._sums, self._line,
             least_arms, found,
         )  # fmt: skip
@@ -58,13 +58,13 @@ def spare_of(mask, robots, limit, paths):
 
 @compiled
 def insert(
-    tour, sets, left, goal, hops, first, side, step_x, step_y, free, arm, robots, limit, paths,
+    tour, sets, left, goal, hops, first, side, step_x, step_y, free, robots, limit, paths,
     ahead, behind, places, own, moved, sums, line, least_arm, found,
 ):  # fmt: skip
     """Fill ``found`` and ``least_arm``; see ``Insertions.bounds``."""
     count, cells, size = len(tour), len(first), len(robots)
     for place in range(count):
-        stand(tour[place], hops, spare_of(tour[place], robots, limit, paths), arm, sums, own[place])
+        stand(tour[place], hops, spare_of(tour[place], robots, limit, paths), sums, own[place])
     # ahead[k]: cost of being in a cell on the way to set k, all sets before it done; behind[k]: of all after k - 1
     for cell in range(cells):
         ahead[0, cell] = first[cell]
@@ -87,12 +87,13 @@ def insert(
         if left >> task & 1:
             least = NEVER
             for cell in range(cells):
-                if arm * hops[task, cell] < least:
+                away = np.float32(hops[task, cell])
+                if away < least:
                     cheapest = NEVER
                     for place in range(count + 1):
                         cheapest = min(cheapest, places[place, cell])
-                    if cheapest + arm * hops[task, cell] < goal:
-                        least = arm * hops[task, cell]
+                    if cheapest + away < goal:
+                        least = away
             least_arm[task] = least
             outside += np.float32(min(least, NEVER))
     if outside >= NEVER:
@@ -103,7 +104,7 @@ def insert(
         for task in range(size):
             if mask >> task & 1:
                 others -= np.float32(least_arm[task])
-        stand(mask, hops, spare_of(mask, robots, limit, paths), arm, sums, moved)
+        stand(mask, hops, spare_of(mask, robots, limit, paths), sums, moved)
         for place in range(count + 1):
             least = NEVER
             for cell in range(cells):

@@ -3,6 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+MOST_ROBOTS = 1_000_000
+MOST_HOPS = 10_000  # along a side of the region
+FARTHEST = 1e7  # hops from the origin: farther off a place is not known to a thousandth of what a checker allows
+LENGTHS = (1e-4, 1e6)  # of a hop, m: results are written in nanometres
+DURATIONS = (1e-6, 1e9)
+
 
 class InstanceError(ValueError):
     """An instance that cannot be scheduled; the message names the task or the field, and the reason."""
@@ -70,16 +76,26 @@ def _faults_of_swarm(instance: Instance) -> list[str]:
         faults.append("there is no task: list at least one under 'tasks'")
     if instance.robots < 2:
         faults.append(f"the swarm has {instance.robots} robots: a master and at least one more are needed")
+    if instance.robots > MOST_ROBOTS:
+        faults.append(f"the swarm has {instance.robots} robots: at most {MOST_ROBOTS} can be scheduled")
     faults += [
         f"team {k + 1} has {t.robots} robots: must be at least 1" for k, t in enumerate(instance.teams) if t.robots < 1
     ]
-    if not (_finite(instance.spacing) and instance.spacing > 0):
-        faults.append(f"spacing = {instance.spacing}: must be a length above 0 m")
-    if instance.paths < 1:
-        faults.append(f"paths = {instance.paths}: must be at least 1")
+    if not LENGTHS[0] <= instance.spacing <= LENGTHS[1]:
+        faults.append(f"spacing = {instance.spacing}: must be a length from {LENGTHS[0]:g} to {LENGTHS[1]:g} m")
+    if not 1 <= instance.paths <= MOST_ROBOTS:
+        faults.append(f"paths = {instance.paths}: must be from 1 to {MOST_ROBOTS}")
     x0, y0, x1, y1 = instance.region
     if not all(map(_finite, instance.region)) or x0 > x1 or y0 > y1:
         faults.append(f"region = {list(instance.region)}: must be [x from, y from, x to, y to], in metres")
+    elif LENGTHS[0] <= instance.spacing <= LENGTHS[1] and (
+        max(x1 - x0, y1 - y0) > MOST_HOPS * instance.spacing
+        or max(map(abs, instance.region)) > FARTHEST * instance.spacing
+    ):
+        faults.append(
+            f"region = {list(instance.region)}: at most {MOST_HOPS} hops of {instance.spacing:g} m long and wide, and "
+            f"no more than {FARTHEST:g} hops from (0, 0): move the origin, or mend spacing"
+        )
     elif not (all(map(_finite, instance.start)) and x0 <= instance.start[0] <= x1 and y0 <= instance.start[1] <= y1):
         faults.append(f"start = {list(instance.start)}: must lie in the region {list(instance.region)}")
     return faults
@@ -94,12 +110,14 @@ def _faults_of_tasks(instance: Instance) -> list[str]:
         said = f"task {task.name!r}"
         if not task.name:
             faults.append("a task has an empty name")
+        elif not task.name.isprintable():
+            faults.append(f"{said}: its name has characters that cannot be printed")
         if not (_finite(task.x) and _finite(task.y)):
             faults.append(f"{said}: place ({task.x}, {task.y}) is no place")
-        elif not (x0 <= task.x <= x1 and y0 <= task.y <= y1):
+        elif _finite(sum(instance.region)) and not (x0 <= task.x <= x1 and y0 <= task.y <= y1):
             faults.append(f"{said}: place ({task.x:g}, {task.y:g}) is outside the region {list(instance.region)}")
-        if not (_finite(task.duration) and task.duration > 0):
-            faults.append(f"{said}: duration = {task.duration}: must be above 0")
+        if not DURATIONS[0] <= task.duration <= DURATIONS[1]:
+            faults.append(f"{said}: duration = {task.duration}: must be from {DURATIONS[0]:g} to {DURATIONS[1]:g}")
         if task.robots < 1:
             faults.append(f"{said}: robots = {task.robots}: must be at least 1")
             continue

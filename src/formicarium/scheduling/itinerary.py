@@ -15,15 +15,20 @@ from formicarium.scheduling.highs import INFINITY, Small
 from formicarium.scheduling.problem import Problem
 from formicarium.scheduling.reach import EUCLID, INNER, INSCRIBED, TOLERANCE
 
-ROUND_ENOUGH = 2e-7  # of the spacing: how far a point may lie outside of a circle
-MOST_ROUNDS = 30
+ROUND_ENOUGH = 2e-7  # hops: how far a point may lie outside of a circle
+ALIKE = 1e-6  # relative: tours whose costs differ by less
+MOST_ROUNDS = 1000  # of tangents, or of relays that are tried
+
+
+class Unsettled(ArithmeticError):
+    """Tangents do not come to an end: nothing is known of the tour."""
 
 
 class Itinerary(NamedTuple):
     """Where the swarm deploys, slot by slot."""
 
-    cost: float  # (14), m
-    points: np.ndarray  # (S, 2), m
+    cost: float  # (14), hops
+    points: np.ndarray  # (S, 2), hops from the corner
     hops: list[np.ndarray]  # relays of each path to each task, slot by slot
 
 
@@ -39,29 +44,60 @@ class Itineraries:
 
     def __init__(self, problem: Problem, charge_first: bool, clock: Clock):
         """Prepare for a problem; ``charge_first``: the way from the start to the first point counts."""
-        self._problem, self._charge_first, self._clock = problem, charge_first, clock
+        self._problem, self._charge_first = problem, charge_first
         self._tangents = tangents(problem.reach)
-        self._solver = Small()
+        self._solver = Small(clock, precise=problem.reach == EUCLID)
+        self._middle = Small(clock, precise=True, interior=True)
 
     def bound(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> float:
         """Return a lower bound of the cost of slots in this order: arms of any length, not whole numbers of hops."""
-        value, _ = self._solver.solve(self._programme(slots, []), None, self._clock, cutoff)
+        value, _ = self._solver.solve(self._programme(slots, []), None, cutoff)
         return value
 
     def cheapest(self, slots: Sequence[Sequence[int]], cutoff: float = INFINITY) -> Itinerary | None:
-        """Return the cheapest itinerary through slots in this order; None if there is none below the cutoff."""
+        """Return the cheapest itinerary through slots in this order; None if there is none below the cutoff.
+
+        Raises:
+            Unsettled: if arms go on sticking out of their circles.
+        """
         more: list[tuple[int, float, float]] = []
+        best: Itinerary | None = None
         for _ in range(MOST_ROUNDS):
-            whole = 2 * len(slots) + np.arange(sum(map(len, slots)))
-            value, amounts = self._solver.solve(self._programme(slots, more), whole, self._clock, cutoff)
-            if amounts is None:
-                return None
-            points = amounts[: 2 * len(slots)].reshape(-1, 2)
-            ends = np.cumsum([len(slot) for slot in slots])
-            hops = np.rint(amounts[whole]).astype(np.int64)
-            if self._problem.reach != EUCLID or not self._add_tangents(slots, points, hops, more):
-                return Itinerary(value, points.copy(), np.split(hops, ends[:-1]))
-        return None
+            way = self._solved(slots, more, None, cutoff)
+            if way is None:
+                return best
+            if self._problem.reach != EUCLID or not self._add_tangents(slots, way, more):
+                return way
+            if way := self._in_circles(slots, more, np.concatenate(way.hops), cutoff):
+                best, cutoff = way, way.cost * (1.0 - ALIKE)
+        raise Unsettled(f"a tour of {len(slots)} slots has too many ways to be measured")
+
+    def _in_circles(self, slots, more, hops: np.ndarray, cutoff: float) -> Itinerary | None:
+        """Return the cheapest itinerary with so many relays, each arm in its circle.
+
+        Corners of tangents always stick out, so it looks for an answer amidst the best. Its tangents hold for other
+        numbers of relays too.
+        """
+        for _ in range(MOST_ROUNDS):
+            way = self._solved(slots, more, hops, cutoff)
+            if way is None or not self._add_tangents(slots, way, more):
+                return way
+        raise Unsettled(f"an arm of a tour of {len(slots)} slots sticks out after {MOST_ROUNDS} rounds")
+
+    def _solved(self, slots, more, given: np.ndarray | None, cutoff: float) -> Itinerary | None:
+        """Solve the programme with some more tangents, and with these relays if they are given."""
+        programme, count = self._programme(slots, more), sum(map(len, slots))
+        whole = 2 * len(slots) + np.arange(count)
+        if given is not None:
+            programme[1][whole] = programme[2][whole] = given
+            value, amounts = self._middle.solve(programme, None, cutoff)
+        else:
+            value, amounts = self._solver.solve(programme, whole, cutoff)
+        if amounts is None or value >= cutoff:
+            return None
+        ends = np.cumsum([len(slot) for slot in slots])
+        hops = np.rint(amounts[whole]).astype(np.int64)
+        return Itinerary(value, amounts[: 2 * len(slots)].reshape(-1, 2).copy(), np.split(hops, ends[:-1]))
 
     def _programme(self, slots, more):
         """Return costs, column bounds and rows: the points, the relays to each task, the steps between points."""
@@ -71,11 +107,11 @@ class Itineraries:
         n, first_hop, first_step = len(tasks), 2 * count, 2 * count + len(tasks)
         steps = 2 * (count - 1 + self._charge_first)
         cost = np.zeros(first_step + steps)
-        cost[first_hop:first_step] = problem.spacing
+        cost[first_hop:first_step] = 1.0
         cost[first_step:] = problem.swarm
         low, high = np.zeros(len(cost)), np.full(len(cost), INFINITY)
         low[:first_hop], high[:first_hop] = np.tile(problem.region[:2], count), np.tile(problem.region[2:], count)
-        # arms: a x + b y - spacing h <= spacing + a X + b Y
+        # arms: a x + b y - h <= 1 + a X + b Y
         kinds = len(self._tangents)
         task_of, tangent_of = np.repeat(np.arange(n), kinds), np.tile(np.arange(kinds), n)
         a, b = self._tangents[tangent_of].T
@@ -84,8 +120,8 @@ class Itineraries:
             a, b = np.concatenate([a, [x for _, x, _ in more]]), np.concatenate([b, [y for _, _, y in more]])
         x, y = problem.places[tasks[task_of]].T
         index = np.column_stack([2 * at[task_of], 2 * at[task_of] + 1, first_hop + task_of])
-        value = np.column_stack([a, b, np.full(len(a), -problem.spacing)])
-        limit = problem.spacing * (1.0 + TOLERANCE) + a * x + b * y
+        value = np.column_stack([a, b, np.full(len(a), -1.0)])
+        limit = 1.0 + TOLERANCE + a * x + b * y
         # steps: |x' - x| <= g, twice for each axis
         rows, values, limits = [index], [value], [limit]
         chain = np.arange(2 * (count - 1))
@@ -110,14 +146,14 @@ class Itineraries:
         starts += [len(slot) for slot in slots]
         return cost, low, high, np.concatenate([[0], np.cumsum(starts)]), flat_index, flat_value, limits
 
-    def _add_tangents(self, slots, points, hops, more) -> bool:
+    def _add_tangents(self, slots, way: Itinerary, more) -> bool:
         """Add a tangent wherever an arm sticks out of its circle, and tell whether one did."""
         before, number = len(more), 0
-        for slot, tasks in enumerate(slots):
-            for task in tasks:
-                dx, dy = points[slot] - self._problem.places[task]
+        for point, tasks, relays in zip(way.points, slots, way.hops):
+            for task, hops in zip(tasks, relays):
+                dx, dy = point - self._problem.places[task]
                 length = float(np.sqrt(dx * dx + dy * dy))
-                if length > (hops[number] + 1 + ROUND_ENOUGH) * self._problem.spacing:
+                if length > hops + 1 + ROUND_ENOUGH:
                     more.append((number, dx / length, dy / length))
                 number += 1
         return len(more) > before

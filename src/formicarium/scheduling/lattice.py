@@ -21,7 +21,6 @@ class Lattice(NamedTuple):
     side: int
     hops: np.ndarray  # (T, cells) int16: relays on a path to each task
     step: tuple[float, float]  # cost of moving by one cell along x, along y
-    arm: float  # cost of one relay on each path
     first: np.ndarray  # (cells,) float32: cost of the way from the start
     free: int  # cells that a move may cross for nothing: 1 from edge to edge, 0 from centre to centre
 
@@ -31,7 +30,7 @@ def lattice_of(problem: Problem, side: int, charge_first: bool, optimistic: bool
     region = problem.region
     wide, high = (region[2] - region[0]) / side, (region[3] - region[1]) / side
     hops = np.empty((problem.size, side * side), np.int16)
-    _fill(problem.places, problem.spacing, problem.reach, region, side, optimistic, hops)
+    _fill(problem.places, problem.reach, region, side, optimistic, hops)
     first = np.zeros(side * side, np.float32)
     if charge_first:
         half = 0.5 if optimistic else 0.0
@@ -41,11 +40,11 @@ def lattice_of(problem: Problem, side: int, charge_first: bool, optimistic: bool
             away.append(np.maximum(np.abs(middles - problem.start[axis]) - half * length, 0.0))
         first = (problem.swarm * (away[0][:, None] + away[1][None, :])).reshape(-1).astype(np.float32)
     steps = (problem.swarm * wide, problem.swarm * high)
-    return Lattice(side, hops, steps, problem.spacing, first, int(optimistic))
+    return Lattice(side, hops, steps, first, int(optimistic))
 
 
 @compiled
-def _fill(places, spacing, reach, region, side, optimistic, hops):
+def _fill(places, reach, region, side, optimistic, hops):
     wide, high = (region[2] - region[0]) / side, (region[3] - region[1]) / side
     for column in range(side):
         for line in range(side):
@@ -56,7 +55,7 @@ def _fill(places, spacing, reach, region, side, optimistic, hops):
                 x1, y1 = x0, y0
             for task in range(len(places)):
                 dx, dy = apart(places[task, 0], x0, x1), apart(places[task, 1], y0, y1)
-                hops[task, column * side + line] = relays(distance(dx, dy, reach), spacing)
+                hops[task, column * side + line] = relays(distance(dx, dy, reach))
 
 
 @compiled
@@ -120,7 +119,7 @@ def pool(cost, side, share, out):
 
 
 @compiled
-def stand(mask, hops, spare, arm, sums, out):
+def stand(mask, hops, spare, sums, out):
     """Fill ``out`` with the cost of the arms of a set in every cell; ``NEVER`` where it needs too many relays."""
     cells = hops.shape[1]
     for cell in range(cells):
@@ -132,4 +131,4 @@ def stand(mask, hops, spare, arm, sums, out):
                 sums[cell] += hops[task, cell]
         task += 1
     for cell in range(cells):
-        out[cell] = np.float32(arm) * sums[cell] if sums[cell] <= spare else NEVER
+        out[cell] = np.float32(sums[cell]) if sums[cell] <= spare else NEVER

@@ -17,12 +17,12 @@ def ticks_of(problem: Problem, slots: Slots) -> int:
     return int(sum(problem.ticks[list(slot)].max() for slot in slots))
 
 
-def first_fit(problem: Problem, places: Places, order: list[int] | None = None) -> Slots:
+def first_fit(problem: Problem, places: Places) -> Slots:
     """Put every task into the first slot that still takes it, long tasks first, after all that come before it."""
     before = closure(problem)
     slots: Slots = []
     at: dict[int, int] = {}
-    for task in order or in_order(problem):
+    for task in in_order(problem):
         earlier = [at[int(other)] for other in np.flatnonzero(before[:, task])]
         for number in range(max(earlier, default=-1) + 1, len(slots)):
             grown = tuple(sorted((*slots[number], task)))

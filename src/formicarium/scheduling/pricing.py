@@ -17,7 +17,7 @@ from formicarium.scheduling.reach import EUCLID, apart, distance, relays
 DEPTH = 100_000  # boxes that wait
 NODES_A_BOX = 1_000  # of a knapsack take as long as a box: a call ends in time, however hard its knapsacks are
 MOST_SETS = 64  # handed back by one call, the best ones last
-SMALLEST = 1e-9  # of the spacing
+SMALLEST = 1e-9  # hops
 EPSILON = 1e-9
 
 
@@ -60,7 +60,7 @@ class Prices:
             return Priced([], 0.0)
         found, bound = search(
             gains[tasks], problem.places[tasks], problem.demands[:, tasks].astype(float), problem.limits.astype(float),
-            problem.spacing, problem.paths, problem.reach, region, worth, boxes, self._boxes, self._reals,
+            problem.paths, problem.reach, region, worth, boxes, self._boxes, self._reals,
             self._rows, self._weights, self._whole, self._flags, self._sets, self._point,
         )  # fmt: skip
         return Priced([tasks[flags[: len(tasks)]] for flags in self._sets[:found]], float(bound))
@@ -68,17 +68,16 @@ class Prices:
 
 @compiled
 def search(
-    gains, places, demands, limits, spacing, paths, reach, region, worth, budget,
+    gains, places, demands, limits, paths, reach, region, worth, budget,
     boxes, reals, row_space, weight_space, whole, flags, sets, point,
 ):  # fmt: skip
     """Return (number of sets found, bound); the sets are rows of ``sets``, each better than the one before.
 
     Args:
         gains: (n,) of the tasks.
-        places: (n, 2) m.
+        places: (n, 2) hops.
         demands: (R, n) robots of each row that a task takes, without relays.
         limits: (R,) robots that there are.
-        spacing: m.
         paths: to each task.
         reach: a value of Reach.
         region: (4,) for the deployment point.
@@ -114,7 +113,7 @@ def search(
             bound = max(bound, boxes[waiting, 4])
             continue
         budget -= 1
-        kept = weigh(x0, y0, x1, y1, gains, places, demands, limits, spacing, paths, reach, some, weights, items, hops)
+        kept = weigh(x0, y0, x1, y1, gains, places, demands, limits, paths, reach, some, weights, items, hops)
         least = move_multipliers(some, weights, limits, kept, best + EPSILON, multipliers, slopes, best_row)
         if least <= best + EPSILON:
             continue
@@ -131,24 +130,22 @@ def search(
                     reals[3][whole_set], reals[4][whole_set] = places[items[item], 0], places[items[item], 1]
                     whole[3][whole_set] = hops[items[item]]
                     whole_set += 1
-            point_like = max(x1 - x0, y1 - y0) <= SMALLEST * spacing
+            point_like = max(x1 - x0, y1 - y0) <= SMALLEST
             if point_like or (
-                reach != EUCLID and meet(reals[3], reals[4], whole[3], whole_set, spacing, reach, x0, y0, x1, y1, point)
+                reach != EUCLID and meet(reals[3], reals[4], whole[3], whole_set, reach, x0, y0, x1, y1, point)
             ):
                 found, best = keep(sets, found, count, kept, items, chosen), value
                 if most <= value + EPSILON:
                     continue
         x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
-        kept = weigh(
-            x, y, x, y, gains, places, demands, limits, spacing, paths, reach, some, middle_weights, items, hops
-        )
+        kept = weigh(x, y, x, y, gains, places, demands, limits, paths, reach, some, middle_weights, items, hops)
         here, _, nodes = fill(
             some, middle_weights, limits, kept, best, multipliers, order, keys, above, slopes, taken, chosen
         )
         budget -= nodes // NODES_A_BOX
         if here > best + EPSILON:
             found, best = keep(sets, found, count, kept, items, chosen), here
-        if max(x1 - x0, y1 - y0) <= SMALLEST * spacing or most <= best + EPSILON:
+        if max(x1 - x0, y1 - y0) <= SMALLEST or most <= best + EPSILON:
             continue
         if waiting + 2 > len(boxes):
             bound = max(bound, most)
@@ -165,12 +162,12 @@ def search(
 
 
 @compiled
-def weigh(x0, y0, x1, y1, gains, places, demands, limits, spacing, paths, reach, some, weights, items, hops):
+def weigh(x0, y0, x1, y1, gains, places, demands, limits, paths, reach, some, weights, items, hops):
     """Fill in what the tasks take when the master stands in a box, and return how many can be done at all."""
     kept = 0
     for task in range(len(gains)):
         dx, dy = apart(places[task, 0], x0, x1), apart(places[task, 1], y0, y1)
-        hops[task] = relays(distance(dx, dy, reach), spacing)
+        hops[task] = relays(distance(dx, dy, reach))
         whole = demands[0, task] + paths * hops[task]
         if whole <= limits[0]:
             weights[0, kept] = whole

@@ -23,7 +23,7 @@ PRINTED, INSCRIBED, EUCLID = (int(reach) for reach in Reach)
 
 @compiled
 def distance(dx, dy, reach):
-    """Return the length of the shortest arm that ends (dx, dy) from the master, in metres."""
+    """Return the length of the shortest arm that ends (dx, dy) from the master, in hops."""
     across, up = abs(dx), abs(dy)
     if reach == EUCLID:
         return sqrt(across * across + up * up)
@@ -32,9 +32,9 @@ def distance(dx, dy, reach):
 
 
 @compiled
-def relays(length, spacing):
-    """Return how many relays one path of that length needs between the master and the task."""
-    return max(0, int(ceil(length / spacing - TOLERANCE)) - 1)
+def relays(length):
+    """Return how many relays one path of that length, in hops, needs between the master and the task."""
+    return max(0, int(ceil(length - TOLERANCE)) - 1)
 
 
 @compiled

@@ -6,11 +6,23 @@ import tomllib
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from formicarium.scheduling.instance import Instance, InstanceError, Task, Team, checked
 
+
+def _no_truth(value: Any) -> Any:
+    if isinstance(value, bool | str):
+        raise ValueError("must be a number")
+    return value
+
+
 Names = Annotated[list[str], Field(default_factory=list)]
+Real = Annotated[float, BeforeValidator(_no_truth)]
+Count = Annotated[int, BeforeValidator(_no_truth)]
+
+
+ENCODING = "utf-8-sig"  # a byte order mark, as spreadsheets write it, is passed over
 
 
 class _Strict(BaseModel):
@@ -18,26 +30,26 @@ class _Strict(BaseModel):
 
 
 class _Team(_Strict):
-    robots: int
+    robots: Count
     abilities: Names
 
 
 class _Task(_Strict):
     name: str
-    x: float
-    y: float
-    robots: int = 1
-    duration: float = 1.0
+    x: Real
+    y: Real
+    robots: Count = 1
+    duration: Real = 1.0
     needs: Names
     after: Names
 
 
 class _File(_Strict):
     name: str = ""
-    spacing: float | None = None
-    paths: int = 1
-    region: tuple[float, float, float, float] | None = None
-    start: tuple[float, float] | None = None
+    spacing: Real | None = None
+    paths: Count = 1
+    region: tuple[Real, Real, Real, Real] | None = None
+    start: tuple[Real, Real] | None = None
     teams: list[_Team] = Field(default_factory=list)
     tasks: list[_Task] = Field(default_factory=list)
 
@@ -61,6 +73,8 @@ def read_instance(path: str | Path, robots: int | None = None, spacing: float = 
         content = readers[path.suffix.lower()](path)
     except OSError as error:
         raise InstanceError(f"{path}: cannot be read: {error.strerror}") from error
+    except RecursionError as error:
+        raise InstanceError(f"{path}: is nested too deeply: no instance needs more than four levels") from error
     except (ValueError, csv.Error) as error:
         raise InstanceError(f"{path}: is no {path.suffix[1:].upper()} file: {error}") from error
     return instance_of(content, str(path), robots, spacing)
@@ -115,27 +129,55 @@ def as_content(instance: Instance) -> dict[str, Any]:
 
 
 def _read_toml(path: Path) -> Any:
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+    return tomllib.loads(path.read_text(encoding=ENCODING))
 
 
 def _read_json(path: Path) -> Any:
-    text = path.read_text(encoding="utf-8")
-    content = json.loads(text) if text.strip() else {}
+    text = path.read_text(encoding=ENCODING)
+    content = json.loads(text, object_pairs_hook=_once) if text.strip() else {}
     if not isinstance(content, dict):
         raise ValueError("must be an object with teams and tasks")
     return content
 
 
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object's fields, each given once."""
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        raise ValueError(f"{_twice([name for name, _ in pairs])!r} is given twice in one object")
+    return content
+
+
+def _twice(names: list[str]) -> str:
+    return next(name for name in names if names.count(name) > 1)
+
+
 def _read_csv(path: Path) -> Any:
-    """Read tasks, one a line: name, x, y and, if wanted, robots, duration, needs and after (names, with spaces)."""
-    with path.open(encoding="utf-8", newline="") as file:
-        lines = list(csv.DictReader(file))
+    """Read tasks, one a line: name, x, y and, if wanted, robots, duration, needs and after.
+
+    Several names in needs or after are parted by semicolons, or by spaces where there is no semicolon.
+    """
+    with path.open(encoding=ENCODING, newline="") as file:
+        reader = csv.DictReader(file)
+        lines, names = list(reader), [name.strip() for name in reader.fieldnames or []]
+    if len(set(names)) < len(names):
+        raise ValueError(f"the column {_twice(names)!r} is there twice")
     tasks = []
     for number, line in enumerate(lines, 2):
         if None in line or None in line.values():
             raise ValueError(f"line {number} has another number of fields than the first line")
         task: dict[str, Any] = {name.strip(): value.strip() for name, value in line.items() if value.strip()}
-        task.update({name: task[name].split() for name in ("needs", "after") if name in task})
+        for name in ("needs", "after"):
+            if name in task:
+                parted = task[name].split(";" if ";" in task[name] else None)
+                task[name] = [word.strip() for word in parted if word.strip()]
+        for name, kind in (("x", float), ("y", float), ("duration", float), ("robots", int)):
+            if name in task:
+                try:
+                    task[name] = kind(task[name].replace("_", "?"))  # Python alone takes 1_0 for a number
+                except ValueError as error:
+                    said = "whole number" if kind is int else "number"
+                    raise ValueError(f"line {number}: {name} = {task[name]!r}: must be a {said}") from error
         tasks.append(task)
     return {"tasks": tasks} if tasks else {}
 

@@ -52,12 +52,13 @@ class Answer(NamedTuple):
 
     objective: str  # "time" or "travel"
     schedule: Schedule | None
-    value: float  # of the schedule; infinite without one
+    value: float  # of the schedule, in its unit of time or in metres times robots; infinite without one
     bound: float  # no schedule has a smaller value
-    seconds: float  # wall-clock time
+    seconds: float  # that the work took, s
     proof: str  # which part of the solver made the bound
-    ended: str  # "proven", "time limit" or "interrupted"
-    time_limit: float | None = None  # Lambda, within which "travel" had to stay
+    ended: str  # "proven", "time limit", "gave up" (all that it knows has been tried) or "interrupted"
+    time_limit: float | None = None  # Lambda, within which "travel" had to stay: the completion time
+    time_bound: float = 0.0  # no schedule has a smaller completion time
 
     @property
     def gap(self) -> float:
@@ -65,6 +66,18 @@ class Answer(NamedTuple):
         if self.value == self.bound:
             return 0.0
         return (self.value - self.bound) / self.value if self.value < float("inf") else float("inf")
+
+    @property
+    def excess(self) -> float:
+        """How far above the best the value may be at most, as a share of the best; infinite without a bound."""
+        if self.value == self.bound:
+            return 0.0
+        return self.value / self.bound - 1.0 if self.bound > 0.0 else float("inf")
+
+    @property
+    def excess_in_words(self) -> str:
+        """How good the value is known to be."""
+        return f"at most {self.excess:.2%} above the best" if self.bound > 0.0 else "no bound is known yet"
 
     @property
     def proven(self) -> bool:
@@ -103,6 +116,7 @@ def as_plain(instance: Instance, answer: Answer, reach: Reach, charge_first: boo
         "ended": answer.ended,
         "seconds": round(answer.seconds, 3),
         "completion_time": schedule.time if schedule else None,
+        "completion_time_bound": answer.time_bound,
         "trip_m": schedule.trip if schedule else None,
         "first_trip_m": first_trip(instance, schedule) if schedule else None,
         "relays": schedule.relays if schedule else None,

@@ -14,7 +14,7 @@ from formicarium.scheduling.gathering import gathering_bound
 from formicarium.scheduling.growing import Growing
 from formicarium.scheduling.heldkarp import MOST_SETS, HeldKarp, Steps
 from formicarium.scheduling.insertion import Insertions
-from formicarium.scheduling.itinerary import Itineraries, Itinerary
+from formicarium.scheduling.itinerary import Itineraries, Itinerary, Unsettled
 from formicarium.scheduling.lattice import lattice_of
 from formicarium.scheduling.precedence import bits_of, closure
 from formicarium.scheduling.problem import Problem
@@ -65,6 +65,8 @@ def least_travel(
             ended = "gave up"
     except OutOfTime:
         pass
+    except Unsettled:
+        ended = "gave up"
     except KeyboardInterrupt:
         ended = "interrupted"
     tour = search.tour
@@ -207,4 +209,4 @@ def _as_deployed(problem: Problem, slots: list[tuple[int, ...]], charge_first: b
     stops = np.vstack([problem.start, points]) if charge_first else points
     trip = float(np.abs(np.diff(stops, axis=0)).sum())
     hops = [p.hops for p in found if p is not None]
-    return Itinerary(problem.swarm * trip + problem.spacing * float(sum(h.sum() for h in hops)), points, hops)
+    return Itinerary(problem.swarm * trip + float(sum(h.sum() for h in hops)), points, hops)

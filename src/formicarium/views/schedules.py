@@ -25,7 +25,7 @@ def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
     schedule = answer.schedule or Schedule(())
     x0, y0, x1, y1 = instance.region
     figure = new_figure(8.2, 8.6)
-    axes = figure.add_axes((0.09, 0.06, 0.88, 0.84))
+    axes = figure.add_axes((0.09, 0.09, 0.88, 0.82))
     plain(axes)
     pad = 0.03 * max(x1 - x0, y1 - y0, 1e-9)
     axes.set_xlim(x0 - pad, x1 + pad)
@@ -39,13 +39,12 @@ def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
         style: dict[str, Any] = {"arrowstyle": "-|>", "color": PALE_INK, "lw": 1.1, "shrinkA": 9, "shrinkB": 9}
         style |= {"ls": (0, (2, 3))} if number == 0 else {}
         axes.annotate("", other, one, arrowprops=style, zorder=1)
-    axes.plot(*instance.start, marker="s", ms=6, color=PAPER, mec=INK, zorder=3)
-    axes.annotate("start", instance.start, (7, -3), textcoords="offset points", size=8.5, color=PALE_INK)
+    axes.plot(*instance.start, marker="s", ms=17, color="none", mec=INK, zorder=4.5)
     for number, slot in enumerate(schedule.slots):
         _draw_slot(axes, instance, slot, number, named=len(instance.tasks) <= NAMED)
     _number_slots(axes, schedule, 0.02 * (x1 - x0 + y1 - y0) / 2)
-    axes.text(0.0, -0.075, "diamond: master; circle: task, as large as its team; dots: relays", size=8.5,
-              color=PALE_INK, transform=axes.transAxes)  # fmt: skip
+    figure.text(0.09, 0.02, "diamond: master; circle: task, as large as its team; dots: relays; square: start",
+                size=8.5, color=PALE_INK)  # fmt: skip
     figure.text(0.09, 0.965, f"{instance.name or 'schedule'}: {len(schedule.slots)} slots", size=12.5, weight="bold",
                 color=INK, va="center")  # fmt: skip
     figure.text(0.09, 0.935, _note(answer, schedule), size=9, color=PALE_INK, va="center")
@@ -59,7 +58,7 @@ def draw_gantt(instance: Instance, answer: Answer, path: Path) -> Path:
     rows = sum(len(slot.arms) for slot in schedule.slots)
     figure = new_figure(8.6, 1.5 + 0.2 * min(rows, 150))
     height = figure.get_figheight()
-    axes = figure.add_axes((0.14, 0.55 / height, 0.83, 1 - 1.25 / height))
+    axes = figure.add_axes((0.14, 0.55 / height, 0.74, 1 - 1.25 / height))
     plain(axes, grid="x")
     begin, line, names = 0.0, 0, []
     for number, slot in enumerate(schedule.slots):
@@ -68,8 +67,9 @@ def draw_gantt(instance: Instance, answer: Answer, path: Path) -> Path:
         for arm in slot.arms:
             task = tasks[arm.task]
             axes.barh(line, task.duration, left=begin, height=0.62, color=shade)
-            words = f"{task.robots} robots, {arm.relays} relays"
-            axes.annotate(words, (begin, line), (4, 0), textcoords="offset points", size=6.5, va="center", color=INK)
+            if rows <= NAMED:
+                axes.text(1.01, line, f"{task.robots} + {arm.relays}", transform=axes.get_yaxis_transform(), size=7.5,
+                          va="center", color=INK)  # fmt: skip
             names.append(arm.task)
             line += 1
         begin += slot.duration
@@ -77,6 +77,8 @@ def draw_gantt(instance: Instance, answer: Answer, path: Path) -> Path:
     axes.set_ylim(line - 0.4, -0.6)
     axes.set_xlim(0, max(begin, 1e-9))
     axes.set_xlabel("time; travel and eruption are not counted", size=9.5)
+    if rows <= NAMED:
+        axes.text(1.01, -0.9, "team + relays", transform=axes.get_yaxis_transform(), size=7.5, color=PALE_INK)
     figure.text(0.14, 1 - 0.3 / height, f"{instance.name or 'schedule'}: {len(schedule.slots)} slots", size=12.5,
                 weight="bold", color=INK, va="center")  # fmt: skip
     figure.text(0.14, 1 - 0.53 / height, _note(answer, schedule), size=9, color=PALE_INK, va="center")
@@ -120,5 +122,5 @@ def _number_slots(axes: Axes, schedule: Schedule, near: float) -> None:
 
 
 def _note(answer: Answer, schedule: Schedule) -> str:
-    known = "proven best" if answer.proven else f"within {answer.gap:.1%} of the best"
+    known = "proven best" if answer.proven else answer.excess_in_words
     return f"time {schedule.time:g}, trip {schedule.trip:.1f} m, {schedule.relays} relays; {known}"

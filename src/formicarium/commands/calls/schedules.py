@@ -20,6 +20,7 @@ def schedule(
     objective: Literal["time", "travel"] = "travel",
     reach: Literal["printed", "inscribed", "euclid"] = "inscribed",
     time_limit: float | None = None,
+    first_hop_free: bool = False,
 ) -> "Answer":
     """Schedule tasks for a swarm that must stay connected, proven best or with a gap; needs the extra "scheduling".
 
@@ -32,6 +33,7 @@ def schedule(
         reach: shape of the area that an arm of n hops reaches: the octagon inside the radio's circle, the circle
             itself, or the paper's octagon around it.
         time_limit: seconds after which the best schedule so far is the answer; none if None.
+        first_hop_free: leave the way from the start to the first deployment point out of "travel", as the paper's (14).
 
     Returns:
         ``value`` and ``bound`` that no schedule can beat, ``gap``, ``proven``, and ``schedule.slots``: x and y (m) of
@@ -48,9 +50,11 @@ def schedule(
     for name, value in (("objective", objective), ("reach", reach)):
         if value not in allowed[name]:
             raise UserError(f"{name} = {value!r}: must be one of {', '.join(allowed[name])}")
-    if time_limit is not None and not time_limit > 0:
+    if robots is not None and not (isinstance(robots, int) and robots > 0):
+        raise UserError(f"robots = {robots!r}: must be a whole number above 0, or None")
+    if time_limit is not None and not (isinstance(time_limit, int | float) and time_limit > 0):
         raise UserError(f"time_limit = {time_limit!r}: must be seconds above 0, or None")
-    return solve(_instance(tasks, robots), objective, reach, time_limit)
+    return solve(_instance(tasks, robots), objective, reach, time_limit, charge_first=not first_hop_free)
 
 
 def _instance(tasks: str | Path | Mapping[str, Any] | Instance, robots: int | None) -> Instance:
