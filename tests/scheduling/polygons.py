@@ -3,7 +3,7 @@
 Every ordered partition is solved by scipy; nothing here comes from the solvers.
 """
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
@@ -21,9 +21,21 @@ def travel_in_polygons(instance, time, charge_first):
             _cost(instance, order, scale, charge_first)
             for order in orders(instance)
             if sum(max(instance.tasks[t].duration for t in group) for group in order) <= time + 1e-9
+            and all(_manned(instance, group) for group in order)
         ]
         found.append(min(costs))
     return found
+
+
+def _manned(instance, group):
+    """Whether any of the tasks together find the robots that can do one of them (Hall)."""
+    tasks = [instance.tasks[t] for t in group]
+    return all(
+        sum(task.robots for task in some)
+        <= sum(team.robots for team in instance.teams if any(task.needs <= team.abilities for task in some))
+        for count in range(1, len(tasks) + 1)
+        for some in combinations(tasks, count)
+    )
 
 
 def _cost(instance, order, scale, charge_first):

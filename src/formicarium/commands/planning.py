@@ -14,7 +14,7 @@ from formicarium.scheduling.checker import check
 from formicarium.scheduling.clock import News
 from formicarium.scheduling.deployment import find_place
 from formicarium.scheduling.generator import draw_instance
-from formicarium.scheduling.instance import Instance
+from formicarium.scheduling.instance import Instance, InstanceError
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.reading import as_content, read_instance
 from formicarium.scheduling.schedule import Answer, as_plain
@@ -47,7 +47,10 @@ def plan(wish: Wish) -> int:
     instance = read_instance(wish.file, wish.robots)
     folder = Path(wish.out) if wish.out else named_folder("schedule", instance.name, wish.objective, wish.reach)
     make_folder(folder)  # what cannot be written is told before the search
-    answer = _search(instance, wish)
+    try:
+        answer = _search(instance, wish)
+    except InstanceError as error:
+        raise InstanceError(f"{wish.file}: {error}") from error
     assert answer.schedule is not None  # every valid instance has one: a slot a task
     verdict = check(instance, answer.schedule, wish.reach, answer.time_limit)
     if verdict.faults:

@@ -29,8 +29,8 @@ def schedule(
         gate,9.0,1.5,2,4                abilities = ["dig"]   x = 2.5
 
     More fields of a task: needs (capabilities), after (tasks that come first; in a CSV
-    parted by semicolons). Of the file: region, start, spacing (one hop, m), paths (disjoint ways to each task).
-    The guide: docs/guides/scheduling.md. Needs the extra "scheduling".
+    parted by semicolons). Of the file: region, start, spacing (one hop, m), paths
+    (disjoint ways to each task). The guide: docs/guides/scheduling.md. Needs the extra "scheduling".
 
     Leaves schedule.json, map.png and gantt.png. Ctrl-C ends the search with the best
     schedule so far. Exit code 0 if a schedule was found, 130 after Ctrl-C.

@@ -124,8 +124,8 @@ class Small:
         if precise:
             for name in ("mip_feasibility_tolerance", "primal_feasibility_tolerance"):
                 self._highs.setOptionValue(name, 1e-9)
+        self._interior = interior
         if interior:
-            self._highs.setOptionValue("solver", "ipm")
             self._highs.setOptionValue("run_crossover", "off")
         for event in (self._highs.cbMipInterrupt, self._highs.cbSimplexInterrupt):
             event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.left <= 0.0))
@@ -162,8 +162,13 @@ class Small:
         highs.setOptionValue("objective_bound", cutoff)
         highs.setOptionValue("mip_rel_gap", 1e-7)
         highs.passModel(model)
+        if self._interior:
+            highs.setOptionValue("solver", "ipm")
         with _interruptible(self._stopped):
             highs.run()
+            if self._interior and highs.getModelStatus() == highspy.HighsModelStatus.kUnknown:  # then a corner
+                highs.setOptionValue("solver", "simplex")
+                highs.run()
         status, info = highs.getModelStatus(), highs.getInfo()
         if status == highspy.HighsModelStatus.kInterrupt:
             raise OutOfTime

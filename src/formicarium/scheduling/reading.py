@@ -162,6 +162,8 @@ def _read_csv(path: Path) -> Any:
         lines, names = list(reader), [name.strip() for name in reader.fieldnames or []]
     if len(set(names)) < len(names):
         raise ValueError(f"the column {_twice(names)!r} is there twice")
+    if lines and (lacking := {"name", "x", "y"} - set(names)):
+        raise ValueError(f"the first line must name the columns name, x and y; it lacks {', '.join(sorted(lacking))}")
     tasks = []
     for number, line in enumerate(lines, 2):
         if None in line or None in line.values():
@@ -205,4 +207,5 @@ def _in_words(problem: Any, content: Any) -> str:
         return f"{place}: there is no such field"
     if problem["type"] == "missing":
         return f"{place}: is missing"
-    return f"{place} = {problem['input']!r}: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
+    said = problem["msg"].removeprefix("Value error, ")
+    return f"{place} = {problem['input']!r}: {said[:1].lower()}{said[1:]}"
