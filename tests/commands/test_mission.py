@@ -81,7 +81,7 @@ def test_settings_have_the_last_word():
     [
         (("duration = 3.0", "robots = 2"), "map.toml: task 'well': robots = 2: an arm brings one robot"),
         (("robots = 8", 'robots = 8\nabilities = ["dig"]'), None),
-        (("duration = 3.0", "duration = -3.0"), "map.toml: task 'well': duration = -3.0: must be above 0"),
+        (("duration = 3.0", "duration = -3.0"), "map.toml: task 'well': duration = -3.0: must be from 1e-06 to 1e+09"),
         (("duration = 3.0", "lasts = 3.0"), "map.toml: task 'well': lasts: there is no such field"),
         (("x = 4.0", 'x = "here"'), "map.toml: task 'well': x = 'here'"),
     ],
