@@ -53,9 +53,10 @@ class Look(NamedTuple):
     boxes: int  # of the deployment point, in each part, at first
     closer: int  # times as many after a look that found few
     glance: int  # boxes of a look that no proof rests on
+    held: float = 0.0  # how far prices are held back, as a share of the way to those of the best bound
 
 
-FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 50, 3, 50)
+FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 50, 3, 50, 0.5)
 
 
 class Covering:
@@ -88,19 +89,26 @@ class Covering:
         until, look = self.clock.seconds + seconds, self._look
         programme = _Programme(self.problem, tasks, layers, self.sets, self.problem.size > MANY)
         best, boxes = Cover(0.0, np.zeros(self.problem.size), np.zeros(len(layers)), False), look.boxes
-        prices = programme.solve()
+        prices = at = inside = programme.solve()
         while True:
-            found, worst = self._price(programme, prices, boxes)
-            exact = worst <= 1.0 + 2 * EPSILON
-            if prices.value / worst > best.bound or exact:
-                bound = max(best.bound, prices.value / worst)
-                best = Cover(bound, prices.gains / worst, np.diff(prices.paid, prepend=0.0) / worst, exact)
-            boxes = boxes * look.closer if found < len(self._parts) / 4 else max(look.boxes, boxes // look.closer)
+            found, worst = self._price(programme, at, boxes)
+            own = at is prices
+            exact = own and worst <= 1.0 + 2 * EPSILON
+            if at.value / worst > best.bound or exact:
+                inside = _Prices(at.gains / worst, at.paid / worst, at.value / worst)
+                best = Cover(max(best.bound, inside.value), inside.gains, np.diff(at.paid, prepend=0.0) / worst, exact)
+            if own or found:
+                boxes = boxes * look.closer if found < len(self._parts) / 4 else max(look.boxes, boxes // look.closer)
             rounded = np.ceil(best.bound / whole - 1e-6) * whole
-            if exact or rounded >= enough or self.clock.seconds > until or (not found and boxes > self._most(until)):
+            done = exact or rounded >= enough or (own and not found and boxes > self._most(until))
+            if done or self.clock.seconds > until:
                 return best
             if found:
-                prices = programme.solve()
+                prices = at = programme.solve()
+                if look.held:
+                    at = prices.held_back(inside, look.held)
+            else:
+                at = prices
 
     def sketch(self, tasks: np.ndarray, known: Iterable[Set], rounds: int, until: float) -> "Sketch":
         """Cover tasks in the relaxation as far as sets suffice that are known or found in a few quick looks.
@@ -147,6 +155,15 @@ class _Prices(NamedTuple):
     gains: np.ndarray  # (T,) for a task
     paid: np.ndarray  # (layers,) for a slot that is so long, all shorter layers included
     value: float  # for everything
+
+    def held_back(self, towards: "_Prices", share: float) -> "_Prices":
+        """Return prices on the way to others: those of a corner swing from round to round (Wentges 1997)."""
+        own = 1.0 - share
+        return _Prices(
+            own * self.gains + share * towards.gains,
+            own * self.paid + share * towards.paid,
+            own * self.value + share * towards.value,
+        )
 
 
 class _Programme:
