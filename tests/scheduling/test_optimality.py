@@ -15,6 +15,7 @@ from formicarium.scheduling.deployment import Places
 from formicarium.scheduling.diving import dive
 from formicarium.scheduling.exhaustive import least_time_of_all, least_travel_of_all
 from formicarium.scheduling.generator import draw_instance
+from formicarium.scheduling.instance import Instance, Task, Team
 from formicarium.scheduling.model import solve_model
 from formicarium.scheduling.packing import ticks_of
 from formicarium.scheduling.problem import problem_of
@@ -178,6 +179,17 @@ def scaled(instance, factor):
         start=(factor * instance.start[0] + x, factor * instance.start[1] + y),
         spacing=factor * instance.spacing,
     )
+
+
+def test_a_tour_that_costs_nothing_has_no_gap():
+    """The interior of a programme gave it a cost of -1e-9, and a gap was divided by a value of 0."""
+    corner = 2.4202494856184336
+    places = [(1.1345115298677215, 1.6502312871477811), (1.546293296673362, 1.7438822631446742),
+              (0.9151759815423868, 1.8276459363053679)]  # fmt: skip
+    tasks = tuple(Task(f"t{k}", x, y, 19) for k, (x, y) in enumerate(places))
+    instance = Instance("zero", (Team(20),), tasks, (0.0, 0.0, corner, corner), (0.5 * corner, 0.5 * corner))
+    answer = solve(instance, "travel", "euclid", charge_first=False)
+    assert answer.proven and (answer.value, answer.bound, answer.gap) == (0.0, 0.0, 0.0)
 
 
 def test_durations_with_the_noise_of_floating_point_have_a_common_unit():

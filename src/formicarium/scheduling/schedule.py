@@ -63,7 +63,7 @@ class Answer(NamedTuple):
     @property
     def gap(self) -> float:
         """Relative distance of value and bound, (value - bound) / value."""
-        if self.value == self.bound:
+        if self.value <= self.bound or self.value == 0.0:
             return 0.0
         return (self.value - self.bound) / self.value if self.value < float("inf") else float("inf")
 

@@ -95,7 +95,7 @@ def _travel(
     tour, ended = least_travel(problem, places, known.slots, known.value, charge_first, RELATIVE_GAP, clock, so_far)
     schedule = _schedule(instance, _visits(tour))
     value = travel_cost(instance, schedule, charge_first)
-    bound = min(tour.bound * instance.spacing, value)
+    bound = max(0.0, min(tour.bound * instance.spacing, value))  # a cost of 0 comes from HiGHS as -1e-9
     if ended == "proven" and so_far != "proven":
         ended = so_far  # least dislocation within a time that may not be the least
     time, time_bound = known.value * problem.unit, known.bound * problem.unit

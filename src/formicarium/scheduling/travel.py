@@ -14,7 +14,7 @@ from formicarium.scheduling.gathering import gathering_bound
 from formicarium.scheduling.growing import Growing
 from formicarium.scheduling.heldkarp import MOST_SETS, HeldKarp, Steps
 from formicarium.scheduling.insertion import Insertions
-from formicarium.scheduling.itinerary import Itineraries, Itinerary, Unsettled
+from formicarium.scheduling.itinerary import Itineraries, Itinerary
 from formicarium.scheduling.lattice import lattice_of
 from formicarium.scheduling.precedence import bits_of, closure
 from formicarium.scheduling.problem import Problem
@@ -65,7 +65,7 @@ def least_travel(
             ended = "gave up"
     except OutOfTime:
         pass
-    except Unsettled:
+    except ArithmeticError:  # HiGHS has no answer, or a tour does not settle: the best so far stands
         ended = "gave up"
     except KeyboardInterrupt:
         ended = "interrupted"
