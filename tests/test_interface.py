@@ -90,6 +90,10 @@ def test_tasks_are_scheduled_and_the_schedule_is_proven_best(tmp_path):
         "tasks": [dict(name="well", x=3.0, y=1.0, robots=2), dict(name="mill", x=-2.0, y=4.0)],
     }
     assert formicarium.schedule(same, time_limit=60).value == answer.value
+    assert formicarium.schedule(tmp_path / "tasks.csv", robots=np.int64(12)).value == answer.value
+    for wrong in ({"robots": True}, {"time_limit": True}, {"time_limit": float("nan")}):
+        with pytest.raises(UserError, match=f"{next(iter(wrong))} = "):
+            formicarium.schedule(same, **wrong)
     instance = read_instance(tmp_path / "tasks.csv", 12)
     assert formicarium.schedule(instance, objective="time").value == answer.schedule.time
     with pytest.raises(InstanceError, match="--robots"):

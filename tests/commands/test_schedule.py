@@ -87,6 +87,7 @@ def test_where_nothing_can_be_written_nothing_is_searched(tmp_path, monkeypatch)
 def test_a_name_never_leads_out_of_the_folder_of_results():
     assert named_folder("schedule", "../../a b/[red]", "time") == Path("formicarium-results/schedule-a-b-red-time")
     assert named_folder("schedule", "..") == Path("formicarium-results/schedule-own")
+    assert named_folder("schedule", 40 * "蟻" + "-x").name == "schedule-" + 26 * "蟻"  # 80 bytes
 
 
 def test_what_is_not_proven_is_told_as_a_share_of_the_best():

@@ -1,5 +1,6 @@
 """The checker refuses what cannot be carried out: each fault alone is found."""
 
+import numpy as np
 import pytest
 
 from formicarium.scheduling.checker import check
@@ -70,9 +71,17 @@ def test_an_unknown_reach_is_refused(reach):
 
 
 @pytest.mark.parametrize("wrong", [FIRST._replace(x=float("nan")), FIRST._replace(duration=float("inf")),
+                                   FIRST._replace(x=None), FIRST._replace(y="1"),
+                                   FIRST._replace(arms=(Arm("near", True), Arm("far", 2))),
                                    FIRST._replace(arms=(Arm("near", "0"), Arm("far", 2.5)))])  # fmt: skip
 def test_what_is_no_number_is_a_fault(wrong):
     assert "slot 1: " in faults(wrong, SECOND)
+
+
+def test_numbers_of_numpy_are_numbers():
+    """Of 64 bits, in which a far arm counted in nanometres would overflow."""
+    arms = tuple(arm._replace(relays=np.int64(arm.relays)) for arm in FIRST.arms)
+    assert not check(INSTANCE, Schedule((FIRST._replace(x=np.float64(FIRST.x), arms=arms), SECOND)), "printed").faults
 
 
 def test_thousands_of_robots_are_counted():

@@ -192,6 +192,18 @@ def test_a_tour_that_costs_nothing_has_no_gap():
     assert answer.proven and (answer.value, answer.bound, answer.gap) == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("reach", ["printed", "inscribed", "euclid"])
+def test_what_is_proven_has_no_gap_where_a_nanometre_counts(reach):
+    """A hundred robots, hops of a tenth of a millimetre: points rounded to nanometres cost 2e-4 of the way."""
+    corner = 0.0007048402995508192
+    tasks = (Task("a", 0.0002811438896116977, 0.0001282187067850764, 95),
+             Task("b", 0.00018915327881192958, 0.0005644557030725591, 50))  # fmt: skip
+    instance = Instance("tiny", (Team(100),), tasks, (0.0, 0.0, corner, corner), (corner / 2, corner / 2), spacing=1e-4)
+    answer = solve(instance, "travel", reach)
+    assert answer.proven and answer.gap <= 1.001e-4
+    assert not check(instance, answer.schedule, reach, answer.time_limit).faults
+
+
 def test_durations_with_the_noise_of_floating_point_have_a_common_unit():
     instance = small_instance(103, 4)
     noisy = instance._replace(
@@ -257,7 +269,7 @@ def test_the_ways_of_more_tasks_prove_the_same_time(number, density, few, monkey
     """Dives where otherwise more than 40 tasks begin; from 150 on pricing part by part, prices from the interior."""
     instance = draw_instance(number, density, 900)
     known = solve(instance, "time", "printed")
-    for name in {few, "SOME"}:
+    for name in {few, "SOME"}:  # MANY: boxes hand on some of the tasks only, too
         monkeypatch.setattr(covering, name, 0)
         monkeypatch.setattr(completion, name, 0)
     answer = solve(instance, "time", "printed", 60.0, processor_time=True)

@@ -75,6 +75,9 @@ def test_an_empty_file_is_called_empty(tmp_path, name):
 
 
 def test_other_files_are_refused(tmp_path):
+    (tmp_path / "wide.csv").write_text("name,x,y\nt,1,2\n", encoding="utf-16")
+    with pytest.raises(InstanceError, match="save it as UTF-8"):
+        read_instance(tmp_path / "wide.csv", 5)
     for name, text in (("a.toml", "tasks = ["), ("a.json", "[1]"), ("a.csv", "name,x\na,1,2\n"), ("a.txt", "")):
         (tmp_path / name).write_text(text)
         with pytest.raises(InstanceError, match=name):
@@ -89,8 +92,8 @@ def read(folder, name, text):
 
 
 def test_what_spreadsheets_write_is_read(tmp_path):
-    """A byte order mark, and names with spaces parted by semicolons."""
-    lines = '\ufeffname,x,y,after\r\nbig job,1,2,\r\nb,2,2,\r\nlast,3,3,"big job; b"\r\n'
+    """A byte order mark, names with spaces parted by semicolons, empty fields at the ends, empty lines."""
+    lines = '\ufeffname,x,y,after,\r\nbig job,1,2,\r\nb,2,2\r\n,,,,\r\nlast,3,3,"big job; b",,\r\n'
     instance = read(tmp_path, "a.csv", lines)
     assert instance.priorities == (("big job", "last"), ("b", "last"))
     assert read(tmp_path, "a.toml", '\ufeff[[tasks]]\nname = "t"\nx = 1\ny = 1\n').tasks[0].name == "t"
@@ -100,6 +103,11 @@ def test_what_spreadsheets_write_is_read(tmp_path):
     ("a.json", '{"tasks": [{"name": "t", "x": 1, "y": 2}], "tasks": []}', "'tasks' is given twice"),
     ("a.csv", "name,x,y,x\nt,1,2,3\n", "the column 'x' is there twice"),
     ("a.csv", "name,x,y\nt,1,2\nu,1_0,2\n", "line 3: x = '1_0'"),
+    ("a.csv", 'name,x,y\n"t\nt",1,2\n\nu,,2,3\n', "line 5 has more fields"),
+    ("a.csv", "name;x;y\nt;1;2\n", "parted by ';': save it with commas"),
+    ("a.csv", "name\tx\ty\nt\t1\t2\n", "parted by '\\t'"),
+    ("a.json", '{"": 1, "tasks": []}', "'': there is no such field"),
+    ("a.json", '{"tasks": "' + 500 * "x" + '"}', "xxx...xxx"),
     ("a.json", '{"a": ' + "[" * 100_000, "nested too deeply"),
 ])  # fmt: skip
 def test_what_would_be_misread_is_refused(tmp_path, name, text, said):

@@ -20,4 +20,5 @@ def results_folder(system: str, identity: str, windows: bool = WINDOWS) -> Path:
 
 def named_folder(kind: str, name: str, *more: str) -> Path:
     """Return formicarium-results/KIND-NAME-MORE for a name that a person gave: never a path out of it."""
-    return Path("formicarium-results") / "-".join((kind, STRANGE.sub("-", name).strip("-.")[:80] or "own", *more))
+    short = STRANGE.sub("-", name).strip("-.").encode()[:80].decode(errors="ignore").strip("-.")
+    return Path("formicarium-results") / "-".join((kind, short or "own", *more))

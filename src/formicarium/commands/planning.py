@@ -17,7 +17,7 @@ from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.instance import Instance, InstanceError
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.reading import as_content, read_instance
-from formicarium.scheduling.schedule import Answer, as_plain
+from formicarium.scheduling.schedule import Answer, as_plain, first_trip
 from formicarium.scheduling.solver import solve
 
 SAMPLE = (2, 0.05, 900, 8)  # arguments of draw_instance: small, and its search comes by most of what is compiled
@@ -68,8 +68,9 @@ def plan(wish: Wish) -> int:
 def _search(instance: Instance, wish: Wish) -> Answer:
     trouble = Console(stderr=True)
     with bars(trouble) as shown:
-        line = shown.add_task("compiling, once" if find_place.is_new() else "first fit", total=None, words="")
-        if find_place.is_new():  # else it would use up the time limit
+        new = find_place.is_new()
+        line = shown.add_task("compiling, once" if new else "first fit", total=None, words="")
+        if new:  # else it would use up the time limit
             solve(draw_instance(*SAMPLE), wish.objective)
 
         def told(news: News) -> None:
@@ -109,8 +110,9 @@ def _show(instance: Instance, answer: Answer, wish: Wish) -> None:
         f"{answer.seconds:.1f} s",
         highlight=False,
     )
+    outward = f" after {first_trip(instance, schedule):.2f} m from the start" if wish.charge_first else ""
     screen.print(
-        f"in all: time {schedule.time:g}, trip {schedule.trip:.2f} m, {schedule.relays} relays; "
+        f"in all: time {schedule.time:g}, trip {schedule.trip:.2f} m{outward}, {schedule.relays} relays; "
         f"{instance.robots} robots, one of them the master",
         highlight=False,
     )

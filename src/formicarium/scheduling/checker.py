@@ -1,13 +1,14 @@
 """The independent judge of schedules. It shares no code with the solvers and computes in whole numbers only.
 
 Lengths are rounded to nanometres once, and every comparison after that is exact. An arm may be too short by a
-millionth of a hop, because deployment points are written with a finite number of digits.
+millionth of a hop, because a solver keeps its limits to a number of digits, and by two nanometres for the rounding.
 """
 
 import itertools
 import math
 from collections.abc import Sequence
 from math import isqrt
+from numbers import Integral, Real
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +54,7 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
         raise ValueError("time_limit = nan: must be a number")
     if strange := _strange(schedule):
         return Verdict(strange, math.nan, math.nan, math.nan, 0, 0)
+    schedule = Schedule(tuple(map(_plain, schedule.slots)))
     tasks = {task.name: task for task in instance.tasks}
     faults = _faults_of_cover(instance, schedule)
     over_radio = 0
@@ -88,12 +90,22 @@ def _strange(schedule: Schedule) -> tuple[str, ...]:
     """Return what is no number in a schedule: nothing else can be judged then."""
     faults = []
     for number, slot in enumerate(schedule.slots, 1):
-        if not all(map(math.isfinite, (slot.x, slot.y, slot.duration))):
-            faults.append(f"slot {number}: ({slot.x}, {slot.y}) for {slot.duration} is no place and time")
+        if not all(_is(Real, value) and math.isfinite(value) for value in (slot.x, slot.y, slot.duration)):
+            faults.append(f"slot {number}: ({slot.x!r}, {slot.y!r}) for {slot.duration!r} is no place and time")
         for arm in slot.arms:
-            if not isinstance(arm.relays, int):
+            if not _is(Integral, arm.relays):
                 faults.append(f"slot {number}: {arm.task}: {arm.relays!r} is no whole number of relays")
     return tuple(faults)
+
+
+def _is(kind: type, value: object) -> bool:
+    return isinstance(value, kind) and not isinstance(value, bool)
+
+
+def _plain(slot: Slot) -> Slot:
+    """Return a slot with Python's numbers instead of NumPy's, which overflow."""
+    arms = tuple(arm._replace(relays=int(arm.relays)) for arm in slot.arms)
+    return Slot(float(slot.x), float(slot.y), float(slot.duration), arms)
 
 
 def _nano(length: float) -> int:

@@ -128,12 +128,12 @@ class Search:
         self.clock.check()
 
     def _dive(self, covering: Covering, gains: np.ndarray, numbers: range, seconds: float) -> None:
-        """Dive again and again, each time with other preferences; the very first has none."""
+        """Dive again and again, each time with other preferences; the first has none, and of many tasks no look."""
         problem, until = self.problem, self.clock.seconds + seconds
-        looks = LOOKS if problem.size <= MANY else 0
-        for number in numbers if looks else numbers[:1]:
+        for number in numbers:
             if not self._open() or self.clock.seconds > until:
                 return
+            looks = LOOKS if problem.size <= MANY else min(number, 1)
             draws = generator(number, "dives") if number else None
             slots = dive(problem, covering, gains, looks, self.best.value, until, draws)
             self._improve(slots or None, "diving")

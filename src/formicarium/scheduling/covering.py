@@ -56,7 +56,7 @@ class Look(NamedTuple):
     held: float = 0.0  # how far prices are held back, as a share of the way to those of the best bound
 
 
-FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 50, 3, 50, 0.5)
+FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 3_000, 3, 50, 0.5)
 
 
 class Covering:
@@ -68,7 +68,7 @@ class Covering:
         self.clock = clock
         self.sets: dict[Set, None] = {(task,): None for task in range(problem.size)}
         self._look = MANY_TASKS if problem.size > MANY else SOME_TASKS if problem.size > SOME else FEW_TASKS
-        self._prices = Prices(problem)
+        self._prices = Prices(problem, many=problem.size > MANY)
         self._parts = _parts(problem.region, self._look.side)
 
     def add(self, sets: Iterable[Set]) -> None:
@@ -98,7 +98,8 @@ class Covering:
                 inside = _Prices(at.gains / worst, at.paid / worst, at.value / worst)
                 best = Cover(max(best.bound, inside.value), inside.gains, np.diff(at.paid, prepend=0.0) / worst, exact)
             if own or found:
-                boxes = boxes * look.closer if found < len(self._parts) / 4 else max(look.boxes, boxes // look.closer)
+                few = found < len(self._parts) / 4
+                boxes = min(boxes, MOST_BOXES) * look.closer if few else max(look.boxes, boxes // look.closer)
             rounded = np.ceil(best.bound / whole - 1e-6) * whole
             done = exact or rounded >= enough or (own and not found and boxes > self._most(until))
             if done or self.clock.seconds > until:

@@ -13,6 +13,8 @@ import numpy as np
 from formicarium.scheduling.clock import Clock, OutOfTime
 
 INFINITY = highspy.kHighsInf
+# no cost is negative, so nothing is unbounded
+NO_SOLUTION = (highspy.HighsModelStatus.kInfeasible, highspy.HighsModelStatus.kUnboundedOrInfeasible)
 
 
 class Linear:
@@ -101,7 +103,7 @@ class Mixed:
                 event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.seconds > until))
             highs.run()
         info, status = highs.getInfo(), highs.getModelStatus()
-        if status in (highspy.HighsModelStatus.kInfeasible, highspy.HighsModelStatus.kUnboundedOrInfeasible):
+        if status in NO_SOLUTION:
             return INFINITY, None, INFINITY
         if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
             return INFINITY, None, info.mip_dual_bound
@@ -127,7 +129,7 @@ class Small:
         self._interior = interior
         if interior:
             self._highs.setOptionValue("run_crossover", "off")
-        for event in (self._highs.cbMipInterrupt, self._highs.cbSimplexInterrupt):
+        for event in (self._highs.cbMipInterrupt, self._highs.cbSimplexInterrupt, self._highs.cbIpmInterrupt):
             event.subscribe(lambda event: event.interrupt(bool(stopped) or clock.left <= 0.0))
 
     def solve(
@@ -169,14 +171,14 @@ class Small:
             if self._interior and highs.getModelStatus() == highspy.HighsModelStatus.kUnknown:  # then a corner
                 highs.setOptionValue("solver", "simplex")
                 highs.run()
-        status, info = highs.getModelStatus(), highs.getInfo()
+        status = highs.getModelStatus()
         if status == highspy.HighsModelStatus.kInterrupt:
             raise OutOfTime
-        if status in (highspy.HighsModelStatus.kObjectiveBound, highspy.HighsModelStatus.kInfeasible):
+        if status in (highspy.HighsModelStatus.kObjectiveBound, *NO_SOLUTION):
             return INFINITY, None
-        if info.primal_solution_status != highspy.SolutionStatus.kSolutionStatusFeasible:
+        if status != highspy.HighsModelStatus.kOptimal:
             raise ArithmeticError(f"HiGHS: {highs.modelStatusToString(status)}")
-        return info.objective_function_value, np.array(highs.getSolution().col_value)
+        return highs.getInfo().objective_function_value, np.array(highs.getSolution().col_value)
 
 
 def _quiet() -> highspy.Highs:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 MOST_ROBOTS = 1_000_000
 MOST_HOPS = 10_000  # along a side of the region
 FARTHEST = 1e7  # hops from the origin: farther off a place is not known to a thousandth of what a checker allows
-LENGTHS = (1e-4, 1e6)  # of a hop, m: results are written in nanometres
+LENGTHS = (1e-4, 1e6)  # of a hop, m: the checker counts in nanometres
 DURATIONS = (1e-6, 1e9)
 
 

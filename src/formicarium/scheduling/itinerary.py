@@ -4,6 +4,7 @@ An arm that ends (dx, dy) from the master is long enough if a dx + b dy <= lengt
 reach: eight for an octagon; of the circle sixteen, and more where a solution sticks out.
 """
 
+import itertools
 from collections.abc import Sequence
 from math import pi
 from typing import NamedTuple
@@ -16,12 +17,9 @@ from formicarium.scheduling.problem import Problem
 from formicarium.scheduling.reach import EUCLID, INNER, INSCRIBED, TOLERANCE
 
 ROUND_ENOUGH = 2e-7  # hops: how far a point may lie outside of a circle
+STILL = 1e-8  # hops: a shorter step is none
 ALIKE = 1e-6  # relative: tours whose costs differ by less
 MOST_ROUNDS = 1000  # of tangents, or of relays that are tried
-
-
-class Unsettled(ArithmeticError):
-    """Tangents do not come to an end: nothing is known of the tour."""
 
 
 class Itinerary(NamedTuple):
@@ -30,6 +28,16 @@ class Itinerary(NamedTuple):
     cost: float  # (14), hops
     points: np.ndarray  # (S, 2), hops from the corner
     hops: list[np.ndarray]  # relays of each path to each task, slot by slot
+
+
+def itinerary(problem: Problem, points: np.ndarray, hops: list[np.ndarray], charge_first: bool) -> Itinerary:
+    """Return an itinerary with its cost added up from points and relays; steps of a solver's noise are none."""
+    stops = np.vstack([problem.start, points])
+    for before, here in itertools.pairwise(stops):
+        still = np.abs(here - before) < STILL
+        here[still] = before[still]
+    trip = float(np.abs(np.diff(stops if charge_first else stops[1:], axis=0)).sum())
+    return Itinerary(problem.swarm * trip + float(sum(h.sum() for h in hops)), stops[1:], hops)
 
 
 def tangents(reach: int) -> np.ndarray:
@@ -58,7 +66,7 @@ class Itineraries:
         """Return the cheapest itinerary through slots in this order; None if there is none below the cutoff.
 
         Raises:
-            Unsettled: if arms go on sticking out of their circles.
+            ArithmeticError: if arms go on sticking out of their circles.
         """
         more: list[tuple[int, float, float]] = []
         best: Itinerary | None = None
@@ -70,7 +78,7 @@ class Itineraries:
                 return way
             if way := self._in_circles(slots, more, np.concatenate(way.hops), cutoff):
                 best, cutoff = way, way.cost * (1.0 - ALIKE)
-        raise Unsettled(f"a tour of {len(slots)} slots has too many ways to be measured")
+        raise ArithmeticError(f"a tour of {len(slots)} slots has too many ways to be measured")
 
     def _in_circles(self, slots, more, hops: np.ndarray, cutoff: float) -> Itinerary | None:
         """Return the cheapest itinerary with so many relays, each arm in its circle.
@@ -82,7 +90,7 @@ class Itineraries:
             way = self._solved(slots, more, hops, cutoff)
             if way is None or not self._add_tangents(slots, way, more):
                 return way
-        raise Unsettled(f"an arm of a tour of {len(slots)} slots sticks out after {MOST_ROUNDS} rounds")
+        raise ArithmeticError(f"an arm of a tour of {len(slots)} slots sticks out after {MOST_ROUNDS} rounds")
 
     def _solved(self, slots, more, given: np.ndarray | None, cutoff: float) -> Itinerary | None:
         """Solve the programme with some more tangents, and with these relays if they are given."""
@@ -96,8 +104,8 @@ class Itineraries:
         if amounts is None or value >= cutoff:
             return None
         ends = np.cumsum([len(slot) for slot in slots])
-        hops = np.rint(amounts[whole]).astype(np.int64)
-        return Itinerary(value, amounts[: 2 * len(slots)].reshape(-1, 2).copy(), np.split(hops, ends[:-1]))
+        hops = np.split(np.rint(amounts[whole]).astype(np.int64), ends[:-1])
+        return itinerary(self._problem, amounts[: 2 * len(slots)].reshape(-1, 2), hops, self._charge_first)
 
     def _programme(self, slots, more):
         """Return costs, column bounds and rows: the points, the relays to each task, the steps between points."""

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import reprlib
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any
@@ -75,6 +76,8 @@ def read_instance(path: str | Path, robots: int | None = None, spacing: float = 
         raise InstanceError(f"{path}: cannot be read: {error.strerror}") from error
     except RecursionError as error:
         raise InstanceError(f"{path}: is nested too deeply: no instance needs more than four levels") from error
+    except UnicodeDecodeError as error:
+        raise InstanceError(f"{path}: is not in UTF-8: save it as UTF-8") from error
     except (ValueError, csv.Error) as error:
         raise InstanceError(f"{path}: is no {path.suffix[1:].upper()} file: {error}") from error
     return instance_of(content, str(path), robots, spacing)
@@ -158,17 +161,20 @@ def _read_csv(path: Path) -> Any:
     Several names in needs or after are parted by semicolons, or by spaces where there is no semicolon.
     """
     with path.open(encoding=ENCODING, newline="") as file:
-        reader = csv.DictReader(file)
-        lines, names = list(reader), [name.strip() for name in reader.fieldnames or []]
+        reader = csv.reader(file)
+        lines = [(reader.line_num, _without_empty_ends(line)) for line in reader]
+    (_, names), *lines = [(number, line) for number, line in lines if line] or [(0, [])]
+    if len(names) == 1 and (other := next((mark for mark in ";\t" if mark in names[0]), None)):
+        raise ValueError(f"its columns are parted by {other!r}: save it with commas")
     if len(set(names)) < len(names):
         raise ValueError(f"the column {_twice(names)!r} is there twice")
     if lines and (lacking := {"name", "x", "y"} - set(names)):
         raise ValueError(f"the first line must name the columns name, x and y; it lacks {', '.join(sorted(lacking))}")
     tasks = []
-    for number, line in enumerate(lines, 2):
-        if None in line or None in line.values():
-            raise ValueError(f"line {number} has another number of fields than the first line")
-        task: dict[str, Any] = {name.strip(): value.strip() for name, value in line.items() if value.strip()}
+    for number, line in lines:
+        if len(line) > len(names):
+            raise ValueError(f"line {number} has more fields than the first line")
+        task: dict[str, Any] = {name: value for name, value in zip(names, line) if value}
         for name in ("needs", "after"):
             if name in task:
                 parted = task[name].split(";" if ";" in task[name] else None)
@@ -182,6 +188,14 @@ def _read_csv(path: Path) -> Any:
                     raise ValueError(f"line {number}: {name} = {task[name]!r}: must be a {said}") from error
         tasks.append(task)
     return {"tasks": tasks} if tasks else {}
+
+
+def _without_empty_ends(line: list[str]) -> list[str]:
+    """Return the fields of a line up to the last one with content; spreadsheets write commas beyond."""
+    fields = [field.strip() for field in line]
+    while fields and not fields[-1]:
+        fields.pop()
+    return fields
 
 
 def _around(tasks: tuple[Task, ...], start: tuple[float, float] | None) -> tuple[float, float, float, float]:
@@ -203,9 +217,10 @@ def _in_words(problem: Any, content: Any) -> str:
         task = content["tasks"][where[1]]
         name = task.get("name") if isinstance(task, dict) else None
         place = f"task {name!r}: {'.'.join(map(str, where[2:])) or 'entry'}" if name else place
+    place = place or ("''" if where else "content")
     if problem["type"] == "extra_forbidden":
         return f"{place}: there is no such field"
     if problem["type"] == "missing":
         return f"{place}: is missing"
     said = problem["msg"].removeprefix("Value error, ")
-    return f"{place} = {problem['input']!r}: {said[:1].lower()}{said[1:]}"
+    return f"{place} = {reprlib.repr(problem['input'])}: {said[:1].lower()}{said[1:]}"

@@ -6,8 +6,6 @@ from typing import Any, NamedTuple
 from formicarium.scheduling.instance import Instance
 from formicarium.scheduling.reach import Reach
 
-DIGITS = 9  # decimals of a deployment point
-
 
 class Arm(NamedTuple):
     """A way from the master to a task."""

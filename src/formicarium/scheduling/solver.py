@@ -7,10 +7,11 @@ import numpy as np
 from formicarium.scheduling.clock import Clock, Told
 from formicarium.scheduling.completion import Completion, least_time
 from formicarium.scheduling.deployment import Places
+from formicarium.scheduling.descent import ALIKE
 from formicarium.scheduling.instance import Instance, checked
 from formicarium.scheduling.problem import Problem, problem_of
 from formicarium.scheduling.reach import Reach
-from formicarium.scheduling.schedule import DIGITS, Answer, Arm, Schedule, Slot, travel_cost
+from formicarium.scheduling.schedule import Answer, Arm, Schedule, Slot, travel_cost
 from formicarium.scheduling.travel import Tour, least_travel
 
 Objective = Literal["time", "travel"]
@@ -95,7 +96,11 @@ def _travel(
     tour, ended = least_travel(problem, places, known.slots, known.value, charge_first, RELATIVE_GAP, clock, so_far)
     schedule = _schedule(instance, _visits(tour))
     value = travel_cost(instance, schedule, charge_first)
-    bound = max(0.0, min(tour.bound * instance.spacing, value))  # a cost of 0 comes from HiGHS as -1e-9
+    bound = min(tour.bound * instance.spacing, value)
+    if value - bound <= ALIKE * instance.spacing:
+        bound = value
+    if ended == "proven" and value - bound > 1.001 * RELATIVE_GAP * value:
+        ended = "gave up"
     if ended == "proven" and so_far != "proven":
         ended = so_far  # least dislocation within a time that may not be the least
     time, time_bound = known.value * problem.unit, known.bound * problem.unit
@@ -113,5 +118,5 @@ def _schedule(instance: Instance, visits: list) -> Schedule:
         arms = [Arm(instance.tasks[t].name, instance.paths * int(h)) for t, h in zip(tasks, hops)]
         longest = max(instance.tasks[t].duration for t in tasks)
         x, y = x0 + float(x) * instance.spacing, y0 + float(y) * instance.spacing
-        slots.append(Slot(round(x, DIGITS), round(y, DIGITS), longest, tuple(arms)))
+        slots.append(Slot(x, y, longest, tuple(arms)))
     return Schedule(tuple(slots))

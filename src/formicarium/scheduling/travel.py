@@ -14,7 +14,7 @@ from formicarium.scheduling.gathering import gathering_bound
 from formicarium.scheduling.growing import Growing
 from formicarium.scheduling.heldkarp import MOST_SETS, HeldKarp, Steps
 from formicarium.scheduling.insertion import Insertions
-from formicarium.scheduling.itinerary import Itineraries, Itinerary
+from formicarium.scheduling.itinerary import Itineraries, Itinerary, itinerary
 from formicarium.scheduling.lattice import lattice_of
 from formicarium.scheduling.precedence import bits_of, closure
 from formicarium.scheduling.problem import Problem
@@ -206,7 +206,4 @@ def _as_deployed(problem: Problem, slots: list[tuple[int, ...]], charge_first: b
     places = Places(problem)
     found = [places.deploy(np.array(slot)) for slot in slots]
     points = np.array([[p.x, p.y] for p in found if p is not None])
-    stops = np.vstack([problem.start, points]) if charge_first else points
-    trip = float(np.abs(np.diff(stops, axis=0)).sum())
-    hops = [p.hops for p in found if p is not None]
-    return Itinerary(problem.swarm * trip + float(sum(h.sum() for h in hops)), points, hops)
+    return itinerary(problem, points, [p.hops for p in found if p is not None], charge_first)

@@ -14,6 +14,7 @@ from formicarium.views.figure import new_figure, plain, save
 from formicarium.views.style import CURVES, FLOOR, GRID, INK, PALE_INK, PAPER
 
 NAMED = 40  # tasks: more have no room for their names
+LONGEST = 20  # letters of a name beside the chart over time
 
 
 def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
@@ -70,7 +71,7 @@ def draw_gantt(instance: Instance, answer: Answer, path: Path) -> Path:
             if rows <= NAMED:
                 axes.text(1.01, line, f"{task.robots} + {arm.relays}", transform=axes.get_yaxis_transform(), size=7.5,
                           va="center", color=INK)  # fmt: skip
-            names.append(arm.task)
+            names.append(arm.task if len(arm.task) <= LONGEST else arm.task[: LONGEST - 1] + "…")
             line += 1
         begin += slot.duration
     axes.set_yticks(range(line), names, fontsize=7.5 if rows <= 60 else 5)

@@ -1,6 +1,7 @@
 """Task schedules from Python: the same answers as ``formicarium schedule``."""
 
 from collections.abc import Mapping
+from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -50,11 +51,17 @@ def schedule(
     for name, value in (("objective", objective), ("reach", reach)):
         if value not in allowed[name]:
             raise UserError(f"{name} = {value!r}: must be one of {', '.join(allowed[name])}")
-    if robots is not None and not (isinstance(robots, int) and robots > 0):
+    if robots is not None and not (_is(Integral, robots) and robots > 0):
         raise UserError(f"robots = {robots!r}: must be a whole number above 0, or None")
-    if time_limit is not None and not (isinstance(time_limit, int | float) and time_limit > 0):
+    if time_limit is not None and not (_is(Real, time_limit) and time_limit > 0):
         raise UserError(f"time_limit = {time_limit!r}: must be seconds above 0, or None")
-    return solve(_instance(tasks, robots), objective, reach, time_limit, charge_first=not first_hop_free)
+    swarm = None if robots is None else int(robots)
+    return solve(_instance(tasks, swarm), objective, reach, time_limit, charge_first=not first_hop_free)
+
+
+def _is(kind: type, value: object) -> bool:
+    """Tell whether a value is a number of a kind, Python's or NumPy's; True and False are none."""
+    return isinstance(value, kind) and not isinstance(value, bool)
 
 
 def _instance(tasks: str | Path | Mapping[str, Any] | Instance, robots: int | None) -> Instance:
