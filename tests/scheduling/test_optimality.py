@@ -18,6 +18,7 @@ from formicarium.scheduling.generator import draw_instance
 from formicarium.scheduling.instance import Instance, Task, Team
 from formicarium.scheduling.model import solve_model
 from formicarium.scheduling.packing import ticks_of
+from formicarium.scheduling.pricing import Prices
 from formicarium.scheduling.problem import problem_of
 from formicarium.scheduling.reach import Reach
 from formicarium.scheduling.schedule import travel_cost
@@ -261,6 +262,20 @@ def test_a_hundred_tasks_end_in_time(number, density, seed, limit):
     answer = solve(instance, "time", "printed", limit, processor_time=True)
     assert answer.schedule is not None and answer.bound <= answer.value
     assert answer.seconds < 1.5 * limit
+
+
+@pytest.mark.parametrize(("number", "density", "tasks"), [(1, 0.2, 20), (3, 0.05, 60), (9, 0.05, 30)])
+def test_what_a_box_does_not_hand_on_is_in_no_better_set(number, density, tasks):
+    problem = problem_of(draw_instance(number, density, 900, tasks), Reach.PRINTED)
+    everything = np.ones(problem.size, bool)
+    for seed in range(8):
+        gains = np.random.default_rng([7, seed]).uniform(0.0, 1.0, problem.size)
+        all_tasks, some = (
+            Prices(problem, many).best(gains, everything, 0.5, 50_000, problem.region) for many in (False, True)
+        )
+        assert all_tasks.bound == pytest.approx(gains[all_tasks.sets[-1]].sum())  # none is left to look at
+        assert some.bound == pytest.approx(all_tasks.bound)
+        assert gains[some.sets[-1]].sum() == pytest.approx(some.bound)
 
 
 @pytest.mark.parametrize("few", ["SOME", "MANY"])
