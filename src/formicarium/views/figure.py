@@ -1,6 +1,7 @@
 """Figures without global state, written whole."""
 
 from pathlib import Path
+from warnings import catch_warnings, filterwarnings
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -21,7 +22,8 @@ def new_figure(width: float, height: float) -> Figure:
 
 def save(figure: Figure, path: Path) -> Path:
     """Write a figure in the format of the path's suffix; the file appears whole or not at all."""
-    with replacing(path) as temporary:
+    with replacing(path) as temporary, catch_warnings():
+        filterwarnings("ignore", "Glyph")  # a letter that the font lacks is drawn as a box
         # No software version or date inside, so that equal figures are equal bytes.
         figure.savefig(temporary, metadata={"Software": None} if path.suffix == ".png" else None)
     return path

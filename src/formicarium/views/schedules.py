@@ -14,7 +14,7 @@ from formicarium.views.figure import new_figure, plain, save
 from formicarium.views.style import CURVES, FLOOR, GRID, INK, PALE_INK, PAPER
 
 NAMED = 40  # tasks: more have no room for their names
-LONGEST = 20  # letters of a name beside the chart over time
+LONGEST = 17  # letters of a name beside the chart over time
 
 
 def draw_map(instance: Instance, answer: Answer, path: Path) -> Path:
