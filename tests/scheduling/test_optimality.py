@@ -205,6 +205,23 @@ def test_what_is_proven_has_no_gap_where_a_nanometre_counts(reach):
     assert not check(instance, answer.schedule, reach, answer.time_limit).faults
 
 
+def test_ways_shorter_than_a_thousandth_of_a_hop_are_proven():
+    """The least difference that counts, 1e-7 hops, was compared with itself."""
+    for step in np.geomspace(1e-6, 2e-4, 12):
+        tasks = (Task("a", 0.0, 0.0, 2), Task("b", 2.0 + float(step), 0.0, 2))
+        answer = solve(Instance("near", (Team(3),), tasks, (0.0, 0.0, 3.0, 0.0), (0.0, 0.0)), "travel", "printed",
+                       charge_first=False)  # fmt: skip
+        assert answer.proven and answer.value == pytest.approx(3 * step, rel=1e-3, abs=2e-7)
+
+
+@pytest.mark.parametrize(("number", "tasks", "reach"), [(5, 300, "printed"), (3, 200, "inscribed")])
+def test_the_clock_is_heard_within_a_look_at_many_tasks(number, tasks, reach):
+    instance = draw_instance(number, 0.5, 3, tasks)
+    for _ in range(2):  # the first one compiles
+        answer = solve(instance, "time", reach, 3.0, processor_time=True)
+    assert answer.seconds < 4.5 and not check(instance, answer.schedule, reach).faults
+
+
 def test_durations_with_the_noise_of_floating_point_have_a_common_unit():
     instance = small_instance(103, 4)
     noisy = instance._replace(
@@ -213,6 +230,9 @@ def test_durations_with_the_noise_of_floating_point_have_a_common_unit():
     clean = instance._replace(
         tasks=tuple(task._replace(duration=float(k + 3)) for k, task in enumerate(instance.tasks))
     )
+    long = instance._replace(tasks=tuple(task._replace(duration=1333.3333333) for task in instance.tasks))
+    answer = solve(long, "travel", "printed")  # more than nine digits
+    assert answer.proven and not check(long, answer.schedule, "printed", answer.time_limit).faults
     found = [solve(one, "time", "printed") for one in (noisy, clean)]
     assert found[0].proven and found[0].value == pytest.approx(0.1 * found[1].value)
 

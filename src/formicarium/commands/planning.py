@@ -102,7 +102,7 @@ def _show(instance: Instance, answer: Answer, wish: Wish) -> None:
     known = {
         "proven": "proven best",
         "time limit": f"the time limit came: {answer.excess_in_words}",
-        "gave up": f"{answer.excess_in_words}; it has tried what it knows",
+        "gave up": f"{answer.excess_in_words}; it has tried what it knows, as far as the time allows",
         "interrupted": f"interrupted: {answer.excess_in_words}",
     }[answer.ended]
     screen.print(
@@ -116,7 +116,7 @@ def _show(instance: Instance, answer: Answer, wish: Wish) -> None:
         f"{instance.robots} robots, one of them the master",
         highlight=False,
     )
-    if wish.objective == "travel" and answer.time_bound < schedule.time - 1e-6:
+    if answer.time_limit is not None and answer.time_bound < answer.time_limit:
         screen.print(
             f"it may be that less time does: at least {answer.time_bound:g} is needed; more time for the search, or "
             "--objective time, would tell",

@@ -19,6 +19,8 @@ from formicarium.scheduling.instance import Instance, Task
 from formicarium.scheduling.schedule import Schedule, Slot
 
 NANOMETRES = 10**9
+FARTHEST = 1e15  # m
+DIGITS = 1e-8  # relative: solvers add durations up in nine digits
 SLACK, ROUNDED = 1e-6, 2  # hops; nm: a place and a deployment point, along both axes
 REACHES = ("printed", "inscribed", "euclid")
 # cos^2(pi / 8) = (2 + sqrt 2) / 4, rounded up in the tenth digit: the inscribed octagon
@@ -50,8 +52,8 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     """
     if reach not in REACHES:
         raise ValueError(f"reach = {reach!r}: must be one of {', '.join(REACHES)}")
-    if time_limit is not None and math.isnan(time_limit):
-        raise ValueError("time_limit = nan: must be a number")
+    if time_limit is not None and not (_is(Real, time_limit) and not math.isnan(time_limit)):
+        raise ValueError(f"time_limit = {time_limit!r}: must be a number")
     if strange := _strange(schedule):
         return Verdict(strange, math.nan, math.nan, math.nan, 0, 0)
     schedule = Schedule(tuple(map(_plain, schedule.slots)))
@@ -76,7 +78,7 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     time = sum(
         max((tasks[arm.task].duration for arm in s.arms if arm.task in tasks), default=0.0) for s in schedule.slots
     )
-    if time_limit is not None and time > time_limit + 1e-6:
+    if time_limit is not None and time > time_limit * (1.0 + DIGITS) + 1e-6:
         faults.append(f"takes {time}, more than {time_limit}")
     points = [(_nano(slot.x), _nano(slot.y)) for slot in schedule.slots]
     trip = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in itertools.pairwise(points))
@@ -90,7 +92,7 @@ def _strange(schedule: Schedule) -> tuple[str, ...]:
     """Return what is no number in a schedule: nothing else can be judged then."""
     faults = []
     for number, slot in enumerate(schedule.slots, 1):
-        if not all(_is(Real, value) and math.isfinite(value) for value in (slot.x, slot.y, slot.duration)):
+        if not all(_is(Real, value) and abs(value) <= FARTHEST for value in (slot.x, slot.y, slot.duration)):
             faults.append(f"slot {number}: ({slot.x!r}, {slot.y!r}) for {slot.duration!r} is no place and time")
         for arm in slot.arms:
             if not _is(Integral, arm.relays):

@@ -58,6 +58,10 @@ class Search:
         layers, cover = self._relax(covering)
         if self._open():
             self._choose(covering, layers)
+        if self._open() and not cover.converged and gains is None:  # no dives: the bound may have what time there is
+            seconds = self.share * self.clock.left
+            cover = covering.relax(np.arange(self.problem.size), layers, self.best.value, seconds)
+            self._raise_bound(cover.bound, "covering")
         if self._open() and cover.converged:
             self._enumerate(cover, layers)
         if gains is None:
@@ -179,6 +183,8 @@ def least_time(problem: Problem, places: Places, clock: Clock, share: float = 1.
         search.run()
     except OutOfTime:
         pass
+    except ArithmeticError:  # HiGHS has no answer: the best so far stands
+        ended = "gave up"
     except KeyboardInterrupt:
         ended = "interrupted"
     if search.best.bound >= search.best.value:

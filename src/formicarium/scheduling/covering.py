@@ -16,7 +16,8 @@ from formicarium.scheduling.problem import Problem
 
 EPSILON = 1e-7
 MOST_BOXES = 8_100_000  # of a proof that there are no better sets
-BOXES_A_SECOND = 6_000_000  # and task, at least: a look that could take longer than there is time is not begun
+BOXES_A_SECOND = 6_000_000  # and task, at least: no look is planned that could take longer than there is time
+FEWEST_BOXES = 50  # of a look, however little time there is
 SOME = 40  # tasks; from there on pricing looks closely at once
 MANY = 150  # tasks; from there on every part of the region is asked for its sets, and prices lie in the interior
 
@@ -88,7 +89,8 @@ class Covering:
         """
         until, look = self.clock.seconds + seconds, self._look
         programme = _Programme(self.problem, tasks, layers, self.sets, self.problem.size > MANY)
-        best, boxes = Cover(0.0, np.zeros(self.problem.size), np.zeros(len(layers)), False), look.boxes
+        best = Cover(0.0, np.zeros(self.problem.size), np.zeros(len(layers)), False)
+        boxes = self._affordable(look.boxes, until, len(layers))
         prices = at = inside = programme.solve()
         while True:
             found, worst = self._price(programme, at, boxes)
@@ -99,11 +101,12 @@ class Covering:
                 best = Cover(max(best.bound, inside.value), inside.gains, np.diff(at.paid, prepend=0.0) / worst, exact)
             if own or found:
                 few = found < len(self._parts) / 4
-                boxes = min(boxes, MOST_BOXES) * look.closer if few else max(look.boxes, boxes // look.closer)
+                boxes = boxes * look.closer if few else max(look.boxes, boxes // look.closer)
             rounded = np.ceil(best.bound / whole - 1e-6) * whole
             done = exact or rounded >= enough or (own and not found and boxes > self._most(until))
             if done or self.clock.seconds > until:
                 return best
+            boxes = self._affordable(boxes, until, len(layers))
             if found:
                 prices = at = programme.solve()
                 if look.held:
@@ -135,12 +138,23 @@ class Covering:
     def _most(self, until: float) -> float:
         return min(MOST_BOXES, BOXES_A_SECOND / self.problem.size * (until - self.clock.seconds) / len(self._parts))
 
+    def _affordable(self, boxes: int, until: float, layers: int) -> int:
+        """Return so many boxes, or as many as there is time for in all parts and layers."""
+        if len(self._parts) == 1:  # the only look is the last one: it may take what time there is
+            return boxes
+        return min(boxes, max(FEWEST_BOXES, int(self._most(until) / layers)))
+
     def _price(self, programme: "_Programme", prices: "_Prices", boxes: int) -> tuple[int, float]:
-        """Add sets that are worth more than they cost; return their number and the most that a set exceeds its cost."""
+        """Add sets that are worth more than they cost; return their number and the most that a set exceeds its cost.
+
+        Nothing is known of the most, it is infinite, if all time is up before everything has been looked at.
+        """
         found, worst = 0, 1.0
         for level in range(len(programme.levels) - 1, -1, -1):
             length, paid = programme.levels[level], prices.paid[level]
             for part in self._parts:
+                if self.clock.left <= 0.0:
+                    return found, np.inf
                 priced = self._prices.best(prices.gains, programme.allowed[level], length - paid + EPSILON, boxes, part)
                 worst = max(worst, (priced.bound + paid) / length)
                 for tasks in priced.sets[-12:]:

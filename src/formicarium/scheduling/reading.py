@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import reprlib
 import tomllib
 from pathlib import Path
@@ -15,6 +16,8 @@ from formicarium.scheduling.instance import Instance, InstanceError, Task, Team,
 def _no_truth(value: Any) -> Any:
     if isinstance(value, bool | str):
         raise ValueError("must be a number")
+    if isinstance(value, int) and abs(value) > LARGEST:
+        raise ValueError(f"must be a number of at most {LARGEST:g}")
     return value
 
 
@@ -23,6 +26,7 @@ Real = Annotated[float, BeforeValidator(_no_truth)]
 Count = Annotated[int, BeforeValidator(_no_truth)]
 
 
+LARGEST = 10**300
 ENCODING = "utf-8-sig"  # a byte order mark, as spreadsheets write it, is passed over
 
 
@@ -166,6 +170,8 @@ def _read_csv(path: Path) -> Any:
     (_, names), *lines = [(number, line) for number, line in lines if line] or [(0, [])]
     if len(names) == 1 and (other := next((mark for mark in ";\t" if mark in names[0]), None)):
         raise ValueError(f"its columns are parted by {other!r}: save it with commas")
+    if "" in names:
+        raise ValueError("a column has no name in the first line")
     if len(set(names)) < len(names):
         raise ValueError(f"the column {_twice(names)!r} is there twice")
     if lines and (lacking := {"name", "x", "y"} - set(names)):
@@ -200,6 +206,7 @@ def _without_empty_ends(line: list[str]) -> list[str]:
 
 def _around(tasks: tuple[Task, ...], start: tuple[float, float] | None) -> tuple[float, float, float, float]:
     places = [(task.x, task.y) for task in tasks] + ([start] if start else [])
+    places = [place for place in places if math.isfinite(sum(place))]  # what is no place is told as the task's fault
     if not places:
         return (0.0, 0.0, 0.0, 0.0)
     xs, ys = zip(*places)
@@ -210,11 +217,15 @@ def _middle(region: tuple[float, float, float, float]) -> tuple[float, float]:
     return (0.5 * (region[0] + region[2]), 0.5 * (region[1] + region[3]))
 
 
+def _short(value: Any) -> str:
+    return "a whole number" if isinstance(value, int) and abs(value) > LARGEST else reprlib.repr(value)
+
+
 def _in_words(problem: Any, content: Any) -> str:
-    where = [step for step in problem["loc"] if not (isinstance(step, str) and "[" in step)]
+    where = [step for step in problem["loc"] if not (isinstance(step, str) and step.endswith("]"))]
     place = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in where).lstrip(".")
     if len(where) > 1 and where[0] == "tasks":
-        task = content["tasks"][where[1]]
+        task = list(content["tasks"])[where[1]]
         name = task.get("name") if isinstance(task, dict) else None
         place = f"task {name!r}: {'.'.join(map(str, where[2:])) or 'entry'}" if name else place
     place = place or ("''" if where else "content")
@@ -223,4 +234,4 @@ def _in_words(problem: Any, content: Any) -> str:
     if problem["type"] == "missing":
         return f"{place}: is missing"
     said = problem["msg"].removeprefix("Value error, ")
-    return f"{place} = {reprlib.repr(problem['input'])}: {said[:1].lower()}{said[1:]}"
+    return f"{place} = {_short(problem['input'])}: {said[:1].lower()}{said[1:]}"

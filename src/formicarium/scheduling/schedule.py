@@ -54,7 +54,7 @@ class Answer(NamedTuple):
     bound: float  # no schedule has a smaller value
     seconds: float  # that the work took, s
     proof: str  # which part of the solver made the bound
-    ended: str  # "proven", "time limit", "gave up" (all that it knows has been tried) or "interrupted"
+    ended: str  # "proven", "time limit", "gave up" (what it knows is tried, as far as time allows) or "interrupted"
     time_limit: float | None = None  # Lambda, within which "travel" had to stay: the completion time
     time_bound: float = 0.0  # no schedule has a smaller completion time
 

@@ -97,7 +97,7 @@ def _travel(
     schedule = _schedule(instance, _visits(tour))
     value = travel_cost(instance, schedule, charge_first)
     bound = min(tour.bound * instance.spacing, value)
-    if value - bound <= ALIKE * instance.spacing:
+    if value - bound <= 1.001 * ALIKE * instance.spacing:
         bound = value
     if ended == "proven" and value - bound > 1.001 * RELATIVE_GAP * value:
         ended = "gave up"
