@@ -7,7 +7,7 @@ from formicarium.scheduling.clock import Clock
 from formicarium.scheduling.itinerary import Itinerary
 
 CAREFUL = 1e-6  # relative: lattices count in 32 bits
-ALIKE = 1e-7  # hops: tours whose costs differ by less are the same
+SAME = 1e-7  # hops: tours whose costs differ by less are the same
 
 
 class Bounded(Protocol):
@@ -33,7 +33,7 @@ class Incumbent:
     @property
     def goal(self) -> float:
         """What a schedule must cost less than to be worth finding: better by more than the gap."""
-        return min(self.target, self.way.cost - max(ALIKE, self.gap * self.way.cost))
+        return min(self.target, self.way.cost - max(SAME, self.gap * self.way.cost))
 
     def offer(self, slots: list[tuple[int, ...]], way: Itinerary | None) -> bool:
         """Take over a cheaper tour and tell whether it was."""

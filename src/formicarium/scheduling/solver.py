@@ -7,7 +7,7 @@ import numpy as np
 from formicarium.scheduling.clock import Clock, Told
 from formicarium.scheduling.completion import Completion, least_time
 from formicarium.scheduling.deployment import Places
-from formicarium.scheduling.descent import ALIKE
+from formicarium.scheduling.descent import SAME
 from formicarium.scheduling.instance import Instance, checked
 from formicarium.scheduling.problem import Problem, problem_of
 from formicarium.scheduling.reach import Reach
@@ -97,7 +97,7 @@ def _travel(
     schedule = _schedule(instance, _visits(tour))
     value = travel_cost(instance, schedule, charge_first)
     bound = min(tour.bound * instance.spacing, value)
-    if value - bound <= 1.001 * ALIKE * instance.spacing:
+    if value - bound <= 1.001 * SAME * instance.spacing:
         bound = value
     if ended == "proven" and value - bound > 1.001 * RELATIVE_GAP * value:
         ended = "gave up"
