@@ -15,8 +15,7 @@ from formicarium.scheduling.pricing import Prices
 from formicarium.scheduling.problem import Problem
 
 EPSILON = 1e-7
-MOST_BOXES = 8_100_000  # of a proof that there are no better sets
-BOXES_A_SECOND = 6_000_000  # and task, at least: no look is planned that could take longer than there is time
+BOXES_A_SECOND = 6_000_000  # and task, at least: a last look that could take longer than there is time is not begun
 FEWEST_BOXES = 50  # of a look, however little time there is
 SOME = 40  # tasks; from there on pricing looks closely at once
 MANY = 150  # tasks; from there on every part of the region is asked for its sets, and prices lie in the interior
@@ -54,10 +53,12 @@ class Look(NamedTuple):
     boxes: int  # of the deployment point, in each part, at first
     closer: int  # times as many after a look that found few
     glance: int  # boxes of a look that no proof rests on
+    most: int  # boxes of a proof that there are no better sets, in each part
     held: float = 0.0  # how far prices are held back, as a share of the way to those of the best bound
 
 
-FEW_TASKS, SOME_TASKS, MANY_TASKS = Look(1, 300, 30, 300), Look(1, 30_000, 10, 3_000), Look(16, 3_000, 3, 50, 0.5)
+FEW_TASKS, SOME_TASKS = Look(1, 300, 30, 300, 8_100_000), Look(1, 30_000, 10, 3_000, 8_100_000)
+MANY_TASKS = Look(16, 3_000, 3, 50, 100_000, 0.5)
 
 
 class Covering:
@@ -90,7 +91,7 @@ class Covering:
         until, look = self.clock.seconds + seconds, self._look
         programme = _Programme(self.problem, tasks, layers, self.sets, self.problem.size > MANY)
         best = Cover(0.0, np.zeros(self.problem.size), np.zeros(len(layers)), False)
-        boxes = self._affordable(look.boxes, until, len(layers))
+        boxes = first = self._first_boxes(until, len(layers))
         prices = at = inside = programme.solve()
         while True:
             found, worst = self._price(programme, at, boxes)
@@ -101,12 +102,11 @@ class Covering:
                 best = Cover(max(best.bound, inside.value), inside.gains, np.diff(at.paid, prepend=0.0) / worst, exact)
             if own or found:
                 few = found < len(self._parts) / 4
-                boxes = boxes * look.closer if few else max(look.boxes, boxes // look.closer)
+                boxes = min(boxes, look.most) * look.closer if few else max(first, boxes // look.closer)
             rounded = np.ceil(best.bound / whole - 1e-6) * whole
             done = exact or rounded >= enough or (own and not found and boxes > self._most(until))
             if done or self.clock.seconds > until:
                 return best
-            boxes = self._affordable(boxes, until, len(layers))
             if found:
                 prices = at = programme.solve()
                 if look.held:
@@ -136,13 +136,14 @@ class Covering:
         return Sketch(prices.value, programme.weights())
 
     def _most(self, until: float) -> float:
-        return min(MOST_BOXES, BOXES_A_SECOND / self.problem.size * (until - self.clock.seconds) / len(self._parts))
+        affordable = BOXES_A_SECOND / self.problem.size * (until - self.clock.seconds)
+        return min(self._look.most, affordable / len(self._parts))
 
-    def _affordable(self, boxes: int, until: float, layers: int) -> int:
-        """Return so many boxes, or as many as there is time for in all parts and layers."""
-        if len(self._parts) == 1:  # the only look is the last one: it may take what time there is
-            return boxes
-        return min(boxes, max(FEWEST_BOXES, int(self._most(until) / layers)))
+    def _first_boxes(self, until: float, layers: int) -> int:
+        """Return how many boxes to begin with: where there are many parts, as many as there is time for in all."""
+        if len(self._parts) == 1:
+            return self._look.boxes
+        return min(self._look.boxes, max(FEWEST_BOXES, int(self._most(until) / layers)))
 
     def _price(self, programme: "_Programme", prices: "_Prices", boxes: int) -> tuple[int, float]:
         """Add sets that are worth more than they cost; return their number and the most that a set exceeds its cost.
