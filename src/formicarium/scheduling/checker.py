@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_flow
 
-from formicarium.scheduling.instance import Instance, Task
+from formicarium.scheduling.instance import Instance, Task, is_number
 from formicarium.scheduling.schedule import Schedule, Slot
 
 NANOMETRES = 10**9
@@ -52,7 +52,7 @@ def check(instance: Instance, schedule: Schedule, reach: str = "printed", time_l
     """
     if reach not in REACHES:
         raise ValueError(f"reach = {reach!r}: must be one of {', '.join(REACHES)}")
-    if time_limit is not None and not (_is(Real, time_limit) and not math.isnan(time_limit)):
+    if time_limit is not None and not (is_number(time_limit, Real) and not math.isnan(time_limit)):
         raise ValueError(f"time_limit = {time_limit!r}: must be a number")
     if strange := _strange(schedule):
         return Verdict(strange, math.nan, math.nan, math.nan, 0, 0)
@@ -92,16 +92,12 @@ def _strange(schedule: Schedule) -> tuple[str, ...]:
     """Return what is no number in a schedule: nothing else can be judged then."""
     faults = []
     for number, slot in enumerate(schedule.slots, 1):
-        if not all(_is(Real, value) and abs(value) <= FARTHEST for value in (slot.x, slot.y, slot.duration)):
+        if not all(is_number(value, Real) and abs(value) <= FARTHEST for value in (slot.x, slot.y, slot.duration)):
             faults.append(f"slot {number}: ({slot.x!r}, {slot.y!r}) for {slot.duration!r} is no place and time")
         for arm in slot.arms:
-            if not _is(Integral, arm.relays):
+            if not is_number(arm.relays, Integral):
                 faults.append(f"slot {number}: {arm.task}: {arm.relays!r} is no whole number of relays")
     return tuple(faults)
-
-
-def _is(kind: type, value: object) -> bool:
-    return isinstance(value, kind) and not isinstance(value, bool)
 
 
 def _plain(slot: Slot) -> Slot:

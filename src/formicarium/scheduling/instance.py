@@ -66,6 +66,11 @@ def checked(instance: Instance, source: str = "instance") -> Instance:
     return instance
 
 
+def is_number(value: object, kind: type) -> bool:
+    """Tell whether a value is a number of a kind, Python's or NumPy's; True and False are none."""
+    return isinstance(value, kind) and not isinstance(value, bool)
+
+
 def _finite(value: float) -> bool:
     return value - value == 0.0
 

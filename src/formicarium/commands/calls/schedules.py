@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from formicarium.commands.errors import UserError
 from formicarium.commands.extras import require
-from formicarium.scheduling.instance import Instance
+from formicarium.scheduling.instance import Instance, is_number
 from formicarium.scheduling.reading import instance_of, read_instance
 
 if TYPE_CHECKING:  # what solves and answers needs the extra
@@ -51,17 +51,12 @@ def schedule(
     for name, value in (("objective", objective), ("reach", reach)):
         if value not in allowed[name]:
             raise UserError(f"{name} = {value!r}: must be one of {', '.join(allowed[name])}")
-    if robots is not None and not (_is(Integral, robots) and robots > 0):
+    if robots is not None and not (is_number(robots, Integral) and robots > 0):
         raise UserError(f"robots = {robots!r}: must be a whole number above 0, or None")
-    if time_limit is not None and not (_is(Real, time_limit) and time_limit > 0):
+    if time_limit is not None and not (is_number(time_limit, Real) and time_limit > 0):
         raise UserError(f"time_limit = {time_limit!r}: must be seconds above 0, or None")
     swarm = None if robots is None else int(robots)
     return solve(_instance(tasks, swarm), objective, reach, time_limit, charge_first=not first_hop_free)
-
-
-def _is(kind: type, value: object) -> bool:
-    """Tell whether a value is a number of a kind, Python's or NumPy's; True and False are none."""
-    return isinstance(value, kind) and not isinstance(value, bool)
 
 
 def _instance(tasks: str | Path | Mapping[str, Any] | Instance, robots: int | None) -> Instance:
