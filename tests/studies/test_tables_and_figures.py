@@ -17,6 +17,7 @@ from formicarium.views.sheets import draw_sheet
 from formicarium.views.tree import draw_tree
 from studies.made_up import TABLE_1, cell, design, run, study
 
+ENDED_EARLY = {"swarm.idle_limit": 2000.0, "swarm.stall_limit": 30000.0}
 FIRST_SEED = {"mark-i3": 81001, "mark-i4": 91001, "mark-ii3": 101001, "mark-ii4": 131001}
 
 
@@ -27,7 +28,7 @@ def test_the_designs_are_table_1(variant):
     assert [level_of(variant, row["setting"], row["robots"]) for row in found["rows"]] == list(LEVELS) * 5
     assert [levels[2] for levels in TABLE_1[variant]] == list(VARIANTS[variant].robots)
     assert (found["system"], found["replicates"]) == (variant, 30)
-    assert found.get("set", {}) == ({} if variant == "mark-i3" else {"swarm.idle_limit": 2000.0})
+    assert found.get("set", {}) == ({} if variant == "mark-i3" else ENDED_EARLY)
 
 
 def test_a_row_of_the_table_with_the_interval_of_wilson():

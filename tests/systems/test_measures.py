@@ -7,9 +7,9 @@ import pytest
 
 from formicarium.systems.sequencing.measures import STALLED, EventKind, cause, outcome
 from formicarium.systems.sequencing.memory import Role
-from formicarium.systems.sequencing.parameters import mark_i3_parameters
+from formicarium.systems.sequencing.parameters import mark_i3_parameters, mark_ii3_parameters
 from formicarium.systems.sequencing.setup import begin
-from formicarium.systems.sequencing.study import MARK_I3, ROLES, timeline
+from formicarium.systems.sequencing.study import MARK_I3, MARK_II3, ROLES, timeline
 from formicarium.trial.record import EVENT, Scene, Trial
 
 CYCLE = 0.1
@@ -250,3 +250,33 @@ def test_a_trial_with_a_runner_left_is_not_ended():
     same = MARK_I3.run(mark_i3_parameters(swarm={"idle_limit": 0.1}), 5002)
     assert same.outcome["hopeless_s"] is None
     assert same.outcome["success"] == 1
+
+
+PROGRESS = (EventKind.CHAIN, EventKind.STEP, EventKind.SOLVED, EventKind.SEQUENCE)
+
+
+@pytest.mark.parametrize(
+    ("system", "parameters"), [(MARK_I3, mark_i3_parameters), (MARK_II3, mark_ii3_parameters)], ids=["I3", "II3"]
+)
+def test_a_complete_chain_that_gets_nowhere_is_ended(system, parameters):
+    """TS-145: sequences and steps of the search put the end off; a limit above the longest wait ends nothing."""
+    whole = system.run(parameters(), 5002)
+    assert whole.outcome["success"] == 1
+    cycles = whole.events["cycle"][np.isin(whole.events["kind"], PROGRESS)]
+    waits = np.diff(cycles)
+    longest = int(waits.max())
+    above, below = (
+        system.run(parameters(swarm={"stall_limit": (longest + more) * CYCLE}), 5002) for more in (0.5, -1.5)
+    )
+    assert above.outcome == whole.outcome
+    ended, row = below.events[-1], below.outcome
+    assert (ended["kind"], ended["value"]) == (EventKind.HOPELESS, 1)
+    assert ended["cycle"] == cycles[waits.argmax()] + longest - 1
+    assert row["hopeless_s"] == pytest.approx((ended["cycle"] + 1) * CYCLE)
+    assert (row["success"], row["time_10_s"], row["duration_s"]) == (0, None, parameters().swarm.time_cap)
+
+
+def test_an_unfinished_chain_is_not_ended():
+    """Of a hundred successful runs of Mark II3 one had closed its loop after 79,271 s."""
+    trial = MARK_I3.run(mark_i3_parameters(robots=12, swarm={"stall_limit": 100.0}), 5001)
+    assert (trial.outcome["hopeless_s"], trial.outcome["time_chain_s"]) == (None, None)

@@ -61,7 +61,7 @@ def _contents(study: Study, one_in: int) -> list[dict[str, Any]]:
         for content in (
             _content(study, AGAIN, rows, fixed) | {"keep": ["events"]},
             _content(study, NOISE, rows, fixed | DOUBLED),
-            _content(study, CONTROL, early, fixed | {"swarm.idle_limit": 0.0}),
+            _content(study, CONTROL, early, fixed | {"swarm.idle_limit": 0.0, "swarm.stall_limit": 0.0}),
         )
         if content["rows"]
     ]

@@ -30,7 +30,7 @@ class EventKind(IntEnum):
     SOLVED = 18  # a guardian stops searching; subject: its colour; value: UPI, not wrapped
     MIXED = 19  # tasks of two permutations in one sequence; subject: colour; value, detail: UPI now and at its start
     CROSSING = 20  # a runner has crossed the closed loop; value: 1 inwards, 0 outwards
-    HOPELESS = 21  # nobody has been a runner for swarm.idle_limit: the trial ends here and counts as run to its cap
+    HOPELESS = 21  # the trial ends here and counts as run to its cap; value: 0 nobody is a runner, 1 no progress
 
 
 # What the chain monitor knows of each robot since the last cycle.
@@ -64,6 +64,7 @@ CHAIN = np.dtype(
         ("complete", "i8"),  # cycle at which the chain was complete, 0 if not yet
         ("members_complete", "i8"),  # chain members then
         ("idle", "i8"),  # cycles for which nobody has been a runner, counted if the trial may end for that
+        ("progress", "i8"),  # cycle in which the chain was complete, a search went on or a sequence was done last
         ("visits", "i8", 8),  # per booth: cycle at which the visit in progress began, 0 if none
     ],
     align=True,

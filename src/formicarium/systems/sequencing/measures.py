@@ -26,33 +26,68 @@ DISPLACED = 0.06  # m, a chain member pushed this far from where it settled is l
 @compiled
 def note(state):
     """Write down what has happened in this cycle. Nothing here is seen by a robot."""
+    clock = state.clock[0]
+    first_event = clock.event_count
     note_tasks(state)
     note_robots(state)
     if state.behaviour[0].mark == 2:
         note_loop(state)
-    clock = state.clock[0]
+    note_progress(state, first_event)
     if state.chain[0].sequences >= state.swarm[0].sequences:
         clock.finished = 1
-    elif state.swarm[0].idle_limit > 0.0:
-        note_idleness(state)
+    elif idle_too_long(state):
+        end_as_hopeless(state, 0)
+    elif stalled_too_long(state):
+        end_as_hopeless(state, 1)
 
 
 @compiled
-def note_idleness(state):
-    """End a trial in which nobody has been a runner for a while (TS-145).
+def note_progress(state, first_event):
+    """Remember when the chain was complete, its search went on or a sequence was done, whatever came last."""
+    clock = state.clock[0]
+    for number in range(first_event, clock.event_count):
+        kind = state.events[number].kind
+        found = kind == EventKind.STEP or kind == EventKind.SOLVED
+        if found or kind == EventKind.CHAIN or kind == EventKind.SEQUENCE:
+            state.chain[0].progress = clock.cycle
+
+
+@compiled
+def idle_too_long(state):
+    """Tell whether nobody has been a runner for ``idle_limit``.
 
     Chain members never become runners again, so nobody will do a task any more.
     """
-    clock = state.clock[0]
+    limit = state.swarm[0].idle_limit
+    if limit == 0.0:
+        return False
     chain = state.chain[0]
     chain.idle += 1
     for i in range(len(state.robots)):
         if state.robots[i].alive == 1 and state.memories[i].role == Role.RUNNER:
             chain.idle = 0
-            return
-    if chain.idle * state.world.settings[0].cycle_time >= state.swarm[0].idle_limit:
-        write_event(clock, state.events, EventKind.HOPELESS, 0, 0, 0, 0)
-        clock.finished = 1
+            return False
+    return chain.idle * state.world.settings[0].cycle_time >= limit
+
+
+@compiled
+def stalled_too_long(state):
+    """Tell whether a complete chain has made no progress for ``stall_limit``.
+
+    A guess, unlike idleness, so it has to be checked. An unfinished chain may be finished at any time.
+    """
+    limit = state.swarm[0].stall_limit
+    chain = state.chain[0]
+    cycles = state.clock[0].cycle - chain.progress
+    return limit > 0.0 and chain.complete > 0 and cycles * state.world.settings[0].cycle_time >= limit
+
+
+@compiled
+def end_as_hopeless(state, reason):
+    """End a trial before its cap, to which it counts as run (TS-145)."""
+    clock = state.clock[0]
+    write_event(clock, state.events, EventKind.HOPELESS, 0, 0, reason, 0)
+    clock.finished = 1
 
 
 @compiled

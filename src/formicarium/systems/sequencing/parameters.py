@@ -60,6 +60,14 @@ class SwarmTable(Table):
         ge=0,
         le=1e6,
     )
+    stall_limit: float = number(
+        0.0,
+        "s",
+        "a trial whose complete chain has done no sequence, nor gone on with its search, for so long is ended and "
+        "counts as run to its cap; 0: never [TS-145]",
+        ge=0,
+        le=1e6,
+    )
     failure_rate: float = number(
         0.0, "1/s", "rate at which a robot dies; the paper's ten robot runs: 1 / 43,600 s [TS-149]", ge=0, le=10
     )

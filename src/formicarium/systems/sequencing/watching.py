@@ -239,7 +239,8 @@ def tell(event: Any) -> str:
         case EventKind.CROSSING:
             return f"{who} crosses the loop {'inwards' if value else 'outwards'}"
         case EventKind.HOPELESS:
-            return "nobody has been a runner for long: the trial ends"
+            why = "nothing has gone on" if value else "nobody has been a runner"
+            return f"{why} for long: the trial ends"
         case EventKind.STATE:
             return f"{who}: {State(detail).name.lower()} to {State(value).name.lower()}"
         case EventKind.MESSAGE:
