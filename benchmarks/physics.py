@@ -14,7 +14,7 @@ import numpy as np
 
 from formicarium.compiled import compiled
 from formicarium.physics.grid import find_neighbours
-from formicarium.physics.rays import bodies_in_line_of_sight, cast
+from formicarium.physics.rays import bodies_in_line_of_sight, cast, look_round
 from formicarium.physics.step import step
 from formicarium.streams import advanced, derived, uniform
 
@@ -72,6 +72,7 @@ def see(world, cycles):
     seen = 0
     for _ in range(cycles):
         for i in range(len(world.bodies)):
+            look_round(world, i)
             for k in range(world.neighbour_count[i]):
                 if bodies_in_line_of_sight(world, i, k):
                     seen += 1

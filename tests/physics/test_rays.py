@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from formicarium.physics.rays import bodies_in_line_of_sight, cast, open_line
+from formicarium.physics.rays import bodies_in_line_of_sight, cast, look_round, open_line
 from formicarium.physics.world import box, chain, joined, make_world, outline, polygon_walls, regular_polygon
 from physics.flat_scenes import discs
 
@@ -109,6 +109,7 @@ def test_lines_of_sight_are_those_that_nothing_crosses(seed):
     world = crowded(seed, count=[8, 16, 30][seed % 3])
     seen, unlike = [], 0
     for i in range(len(world.bodies)):
+        look_round(world, i)
         for k in range(world.neighbour_count[i]):
             answer = bodies_in_line_of_sight(world, i, k)
             seen.append(answer)

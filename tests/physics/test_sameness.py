@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from formicarium.physics.rays import bodies_in_line_of_sight, cast
+from formicarium.physics.rays import bodies_in_line_of_sight, cast, look_round
 from formicarium.physics.records import BODY
 from formicarium.physics.world import box, joined, make_world, outline, polygon_walls, regular_polygon
 from physics.flat_scenes import discs, hexagon, places, run
@@ -56,6 +56,7 @@ def test_looking_changes_nothing():
     for _ in range(30):
         for i in range(12):
             cast(watched, i, 0.036, 0.05, np.ones(1), np.zeros(1), np.zeros(1))
+            look_round(watched, i)
             for k in range(watched.neighbour_count[i]):
                 bodies_in_line_of_sight(watched, i, k)
         run(watched, 0.1)
@@ -73,6 +74,7 @@ def a_crowds_story():
             cast(world, i, 0.036, 0.05, np.cos(angles), np.sin(angles), distances)
             story.append(distances.tobytes())
             count = int(world.neighbour_count[i])
+            look_round(world, i)
             story.append(bytes([bodies_in_line_of_sight(world, i, k) for k in range(count)]))
     return b"".join(story).hex()
 

@@ -71,6 +71,7 @@ class Solver(NamedTuple):
 
     motions: np.recarray  # MOTION (N + 1,)
     contacts: np.recarray  # CONTACT: pairs that can touch in this cycle, by keys
+    outlines: np.ndarray  # (3, N): dx, dy and radius (m) of the neighbours of the body that looked round last
 
 
 class World(NamedTuple):
@@ -187,7 +188,9 @@ def make_world(
         scenery=scenery,
         lists=lists,
         cell_first=np.zeros(set_.columns * set_.rows + 1, np.int64),
-        solver=Solver(motions=records(MOTION, count + 1), contacts=records(CONTACT, max(1, room))),
+        solver=Solver(
+            motions=records(MOTION, count + 1), contacts=records(CONTACT, max(1, room)), outlines=np.zeros((3, count))
+        ),
     )
     find_neighbours(world)
     return world

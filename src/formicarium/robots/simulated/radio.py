@@ -4,7 +4,7 @@ import math
 
 from formicarium.angles import wrapped
 from formicarium.compiled import compiled
-from formicarium.physics.rays import bodies_in_line_of_sight
+from formicarium.physics.rays import bodies_in_line_of_sight, look_round
 from formicarium.robots.records import EMITTERS, PAYLOAD
 from formicarium.robots.simulated.channels import RADIO
 from formicarium.streams import advanced, derived, mixed, normal, uniform
@@ -46,6 +46,7 @@ def sense_packets(world, i, robots, commands, queue, epuck, moment, reading):
     body = world.bodies[i]
     reading.packet_count = 0
     waiting = 0
+    look_round(world, i)
     for n in range(world.neighbour_count[i]):
         neighbour = world.neighbours[i, n]
         if robots[neighbour.index].speaking == 0 or neighbour.distance >= epuck.radio_range:

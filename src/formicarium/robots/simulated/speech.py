@@ -1,7 +1,7 @@
 """A short-range broadcast: what is said is heard by whoever is near and in line of sight, without loss or noise."""
 
 from formicarium.compiled import compiled
-from formicarium.physics.rays import bodies_in_line_of_sight
+from formicarium.physics.rays import bodies_in_line_of_sight, look_round
 from formicarium.robots.forager import HEARD
 
 
@@ -10,6 +10,7 @@ def sense_speech(world, i, robots, voices, reach):
     """Hear the living neighbours that speak, nearer than ``reach`` (m) and in line of sight, by their identities."""
     own = voices[i]
     own.heard_count = 0
+    look_round(world, i)
     for n in range(world.neighbour_count[i]):
         neighbour = world.neighbours[i, n]
         j = neighbour.index
