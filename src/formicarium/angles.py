@@ -5,31 +5,41 @@ import math
 from formicarium.compiled import compiled
 
 TURN = 2.0 * math.pi
-MANY = 64.0  # rad, ten turns
+MANY = 64.0  # rad: up to ten turns are taken off one by one; a power of two
 
 
 @compiled
 def wrapped(angle):
     """Return the same angle in (-pi, pi], by taking off one turn after the other."""
+    if angle >= MANY:
+        angle = unwound(angle)
+    elif angle <= -MANY:
+        angle = -unwound(-angle)
     while angle > math.pi:
         angle -= TURN
-        angle -= turns_alike(angle)
     while angle <= -math.pi:
         angle += TURN
-        angle += turns_alike(-angle)
     return angle
 
 
 @compiled
-def turns_alike(angle):
-    """Return how much (rad) of a large angle can be taken off in one go, to the same last bit as turn by turn.
+def unwound(angle):
+    """Take turns off an angle of ``MANY`` or more until it is less, many in one go, to the same bit as one by one.
 
     Headings count whole turns, and a robot in a crowd that turns on the spot for a day has made thousands. Between
-    one power of two and the next, floating-point numbers are evenly spaced: there every turn takes off the same, so
-    that the sum of them is exact. Small angles, and the last turns above the power, are left to be taken one by one.
+    a power of two and the next, floating-point numbers are evenly spaced: there, after the first, every turn takes
+    off the same, and the sum of many of them is exact.
     """
-    if angle < MANY:
-        return 0.0
-    power = math.ldexp(0.5, math.frexp(angle)[1])
-    turn = angle - (angle - TURN)
-    return turn * max(0.0, math.floor((angle - power) / turn) - 1.0)
+    power = MANY
+    while 2.0 * power <= angle:
+        power *= 2.0
+    while power >= MANY:
+        angle -= TURN
+        turn = angle - (angle - TURN)
+        many = math.floor((angle - power) / TURN) - 1.0
+        if many > 0.0:
+            angle -= many * turn
+        while angle >= power:
+            angle -= TURN
+        power *= 0.5
+    return angle
