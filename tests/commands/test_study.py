@@ -1,6 +1,7 @@
 """``formicarium study sequencing``: from its runs to its figures, and from what is there."""
 
 import csv
+from pathlib import Path
 from time import perf_counter
 
 import pytest
@@ -8,6 +9,8 @@ import pytest
 from formicarium.commands.main import exit_code
 from formicarium.commands.published import answers, store
 from formicarium.commands.published.store import NEEDS, TABLES, Asked, Part, needed, open_design
+
+RESULTS = Path(__file__).parents[2] / "docs" / "results"
 
 
 @pytest.fixture(autouse=True)
@@ -107,6 +110,14 @@ def test_figures_are_drawn_from_tables_alone(tmp_path):
     assert exit_code(["study", "sequencing", "--figure", "S19", "--out", "there", "--from-tables", tables]) == 1
     for name in ("tables/mark_ii3_table_1.csv", "tables/mark_ii4_table_1.csv", "cells.csv", "figure-s19.png"):
         assert (tmp_path / "there" / name).read_bytes() == (tmp_path / "here" / name).read_bytes()
+
+
+def test_the_committed_report_is_what_the_committed_tables_say(tmp_path):
+    asked = ["study", "sequencing", "--out", "there", "--from-tables", str(RESULTS / "tables")]
+    assert exit_code(asked) in (0, 1)  # 1: not all of the paper's runs yet
+    text = (tmp_path / "there" / "report.md").read_text()
+    report = (RESULTS / "task_sequencing_report.md").read_text()
+    assert report == text.replace("](figure-", "](../images/task-sequencing/study/figure-")
 
 
 def test_snapshots_arenas_and_trees_need_no_study(tmp_path):

@@ -116,8 +116,13 @@ def test_the_search_fails_as_often_as_the_tree_says():
 
 
 def test_the_causes_that_the_paper_supposes():
-    said = finding([cell(0, 0, 20, variant="mark-ii4", cause="link displaced")], "R20")
-    assert "pushed links do not readjust: " in said
+    failing = [
+        cell(0, 0, 20, variant="mark-ii4", cause="link displaced"),
+        cell(1, 0, 27, variant="mark-ii4", cause="all robots in an unfinished chain"),
+    ]
+    said = finding(failing, "R20")
+    assert "branches interfere or merge: 0 of 60; pushed links do not readjust: 30 of 60" in said
+    assert "no robot left outside the chain (not the paper's): 30 of 60" in said
 
 
 def test_too_few_runs_are_not_tested():

@@ -11,7 +11,7 @@ from formicarium.statistics.lines import fit_line
 from formicarium.studies.cells import LEVELS, VARIANTS, StudyCell, level_of
 from formicarium.studies.figures import figure_4, figure_of_variant, figure_s18, figure_s19
 from formicarium.studies.search import letter, sequences
-from formicarium.studies.tables import compact, read_compact, table_of, table_s3, with_rows
+from formicarium.studies.tables import TableError, compact, read_compact, table_of, table_s3, with_rows
 from formicarium.systems.sequencing.study import published_run_times
 from formicarium.views.sheets import draw_sheet
 from formicarium.views.tree import draw_tree
@@ -55,6 +55,25 @@ def test_a_compact_table_is_read_as_it_was_written(tmp_path):
     assert [one.successes for one in back] == [1, 0]
     assert compact(back) == compact(cells)
     assert table_of(back) == table_of(cells)
+
+
+@pytest.mark.parametrize(
+    "edit, words",
+    [
+        (lambda text: text.replace('"links"', '"chained"', 1), "has no column links"),
+        (lambda text: text.replace("4,200,", "4,many,", 1), 'line 2, robots: "many" is not a number'),
+        (lambda text: text.replace("4,200,", "4,1e999,", 1), 'line 2, robots: "1e999" is not a number'),
+        (lambda text: text.replace("4,200,", "4,101,", 1), "setting 4 with 101 robots is no cell"),
+        (lambda text: "", "has no column setting"),
+    ],
+)
+def test_a_table_that_cannot_be_used_is_told_by_line_column_and_value(edit, words, tmp_path):
+    path = tmp_path / "rows.csv"
+    filled = cell(4, 100, 0, runs=1, variant="mark-ii3")
+    write_csv(table.from_rows(compact([filled])), path)
+    path.write_text(edit(path.read_text()))
+    with pytest.raises(TableError, match=words):
+        with_rows([filled], read_compact(path))
 
 
 def test_table_s3_beside_ours():

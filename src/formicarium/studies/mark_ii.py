@@ -28,11 +28,12 @@ from formicarium.studies.verdicts import (
 
 MARKS_II = tuple(name for name, variant in VARIANTS.items() if variant.mark == 2)
 FAULTS = ("protocol_faults", "disagreements", "unfounded", "mixed")  # columns that count them
-# The causes that the paper guesses at -> words in ours.
+# The causes that the paper guesses at, and the commonest that it does not name -> words in ours.
 GUESSES = {
-    "branches interfere or merge": ("branch", "loop did not close", "unfinished chain"),
+    "branches interfere or merge": ("branch", "loop did not close"),
     "pushed links do not readjust": ("displaced", "did not get round"),
     "long runs": ("too slow", "still growing"),
+    "no robot left outside the chain (not the paper's)": ("all robots in",),
 }
 
 

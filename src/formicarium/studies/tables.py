@@ -17,6 +17,7 @@ RESULTS = (
     *("unfounded", "upi_correct", "upi_found", "failed_sequences", "mixed", "branch_links", "cause"),
 )
 TEXTS = ("branch_links", "cause", "sources")
+COLUMNS = ("setting", "robots", "cap_s", "seed", *RESULTS, "sources")
 
 
 def table_of(cells: Iterable[StudyCell]) -> list[dict[str, Any]]:
@@ -55,24 +56,50 @@ def compact(cells: Iterable[StudyCell]) -> list[dict[str, Any]]:
     ]
 
 
+class TableError(Exception):
+    """A compact table cannot be used; the message names the line, the column and the value."""
+
+
 def read_compact(path: Path) -> list[dict[str, Any]]:
-    """Read what ``compact`` returned from a CSV file."""
+    """Read what ``compact`` returned from a CSV file.
 
-    def value(name: str, text: str) -> Any:
-        if text == "":
-            return None
+    Raises:
+        TableError: if the file is no such table.
+    """
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            heads = reader.fieldnames or ()
+            lines = [(reader.line_num, line) for line in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise TableError(f"cannot be read: {error}") from error
+    if missing := [name for name in COLUMNS if name not in heads]:
+        raise TableError(f"has no column {', '.join(missing)}")
+    return [{name: _value(number, name, line[name]) for name in COLUMNS} for number, line in lines]
+
+
+def _value(number: int, name: str, text: str | None) -> Any:
+    if not text:
+        return None
+    try:
         return text if name in TEXTS else float(text) if name.endswith("_s") else int(float(text))
-
-    with path.open(newline="", encoding="utf-8") as file:
-        return [{name: value(name, text) for name, text in row.items()} for row in csv.DictReader(file)]
+    except (ValueError, OverflowError):
+        raise TableError(f'line {number}, {name}: "{text}" is not a number') from None
 
 
 def with_rows(cells: Iterable[StudyCell], rows: Iterable[Row]) -> list[StudyCell]:
-    """Return the cells of a variant with the rows of a compact table."""
+    """Return the cells of a variant with the rows of a compact table.
+
+    Raises:
+        TableError: if a row belongs to none of them.
+    """
     found: dict[tuple[int, int], list[Row]] = {}
     for row in rows:
         found.setdefault((row["setting"], row["robots"]), []).append(row)
-    return [cell._replace(runs=found.get((cell.setting, cell.robots), [])) for cell in cells]
+    filled = [cell._replace(runs=found.pop((cell.setting, cell.robots), [])) for cell in cells]
+    for setting, robots in found:
+        raise TableError(f"setting {setting} with {robots} robots is no cell of this variant")
+    return filled
 
 
 def table_s3(published: Mapping[str, Sequence[float]], ours: StudyCell) -> list[dict[str, Any]]:

@@ -15,7 +15,7 @@ from formicarium.studies.document import Picture
 from formicarium.studies.figures import SCALABILITY, figure_4, figure_of_variant, figure_s18, figure_s19
 from formicarium.studies.report import report
 from formicarium.studies.sheet import Sheet
-from formicarium.studies.tables import compact, read_compact, table_of, table_s3, with_rows
+from formicarium.studies.tables import TableError, compact, read_compact, table_of, table_s3, with_rows
 from formicarium.studies.traps import checks as look_for_traps
 from formicarium.systems.sequencing.study import published_run_times
 
@@ -50,6 +50,8 @@ def draw_study(asked: Asked) -> int:
     there = sum(len(cell.runs) for cell in wanted)
     total = sum(store.needed(part, asked).total for part in parts)
     if parts and not there:
+        if asked.tables is not None:
+            raise UserError(f"{asked.tables}: no table of this figure is there, for example {_file(parts[0].design)}.")
         words = f" and sources {', '.join(asked.sources)}" if asked.sources else ""
         raise UserError(f"{asked.folder}: no run of this study{words} is there. Run it first.")
     drawn = [figure for figure in pictures.DRAWN if asked.figure in (figure, "all")]
@@ -71,7 +73,11 @@ def _cells(name: str, study: store.Study, asked: Asked) -> list[StudyCell]:
     if asked.tables is None:
         return store.cells_of(study)
     path = asked.tables / _file(name)
-    return with_rows((store.empty_cell(study, job) for job in study.jobs), read_compact(path) if path.exists() else [])
+    empty = [store.empty_cell(study, job) for job in study.jobs]
+    try:
+        return with_rows(empty, read_compact(path)) if path.exists() else empty
+    except TableError as error:
+        raise UserError(f'{path}: {error}. A study writes such tables into "tables"; take one of those.') from error
 
 
 def _file(design: str) -> str:
