@@ -97,7 +97,8 @@ def with_rows(cells: Iterable[StudyCell], rows: Iterable[Row]) -> list[StudyCell
     for row in rows:
         found.setdefault((row["setting"], row["robots"]), []).append(row)
     filled = [cell._replace(runs=found.pop((cell.setting, cell.robots), [])) for cell in cells]
-    for setting, robots in found:
+    if found:
+        setting, robots = next(iter(found))
         raise TableError(f"setting {setting} with {robots} robots is no cell of this variant")
     return filled
 
