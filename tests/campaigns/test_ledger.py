@@ -225,6 +225,12 @@ def test_a_full_disk_is_named_and_costs_only_what_was_not_written(tmp_path, undi
     assert found.equals(undisturbed)
 
 
+def test_a_folder_inside_a_file_is_refused_with_the_way_out(tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(StoreError, match=r"cannot read .*file.*Choose a folder"):
+        Ledger(tmp_path / "file" / "store").refresh()
+
+
 def test_a_folder_of_another_campaign_is_refused_and_kept(tmp_path):
     campaign(tmp_path, Here(), jobs(10))
     before = (tmp_path / "campaign.json").read_bytes()

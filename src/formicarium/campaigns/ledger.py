@@ -137,5 +137,6 @@ def _entries(folder: Path, suffix: str) -> list[Path]:
     except FileNotFoundError:
         return []
     except OSError as error:
-        raise StoreError(f"cannot read {folder}: {error.strerror or error}") from error
+        reason = error.strerror or str(error)
+        raise StoreError(f"cannot read {folder}: {reason}. Choose a folder that can be read.") from error
     return [path for path in found if path.suffix == suffix and not path.name.startswith(".")]
