@@ -61,6 +61,7 @@ def follow(guide, codes=None):
         execute(kind, content, codes)
 
 
+@pytest.mark.long
 def test_the_guide_to_campaigns_is_true(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)

@@ -23,7 +23,13 @@ def test_every_design_has_twenty_seeds_of_its_own():
     assert len(set(firsts)) == len(firsts) and all(first % 1000 == 1 for first in firsts)
 
 
-@pytest.mark.parametrize(("figure", "counts"), [("fractal", (4, 1)), ("network", (4, 2))])
+@pytest.mark.parametrize(
+    ("figure", "counts"),
+    [
+        pytest.param("fractal", (4, 1), marks=pytest.mark.long),
+        ("network", (4, 2)),
+    ],
+)
 def test_a_study_of_formations_is_run_and_drawn(figure, counts, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(formations, "SHORTER", ("swarm.time_cap=10",))

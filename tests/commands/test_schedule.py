@@ -96,7 +96,7 @@ def test_what_is_not_proven_is_told_as_a_share_of_the_best():
     assert answer._replace(bound=0.0).excess_in_words == "no bound is known yet"
 
 
-@pytest.mark.parametrize("objective", ["time", "travel"])
+@pytest.mark.parametrize("objective", ["time", pytest.param("travel", marks=pytest.mark.long)])
 def test_the_number_of_threads_does_not_matter(objective, tmp_path):
     file = written(draw_instance(5, 0.05, 900), tmp_path)
     found = []

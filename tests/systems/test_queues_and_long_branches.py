@@ -100,6 +100,7 @@ def rested(seed: int, share: float) -> np.ndarray:
     return bends(state, links)
 
 
+@pytest.mark.long
 def test_a_branch_whose_links_mend_all_the_way_curls_up_less():
     """Links that rest as soon as they are within tolerance keep nearly all of it, each of them."""
     left = {share: np.mean([rested(seed, share) for seed in range(3)]) for share in (TABLE.mending_share, 1.0)}

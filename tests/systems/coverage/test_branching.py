@@ -161,6 +161,7 @@ def test_a_line_lies_in_as_many_boxes_as_it_should():
     assert 0.9 < dimension(line, 0.5) < 1.0
 
 
+@pytest.mark.long
 def test_a_filled_square_has_twice_the_dimension_of_a_line():
     one = dimension(np.array([((0.0, 0.0), (20.0, 0.0))]), 0.5)
     assert dimension(grid(60), 0.5) == pytest.approx(2.0 * one, rel=0.03)

@@ -93,7 +93,9 @@ def reckoned(p, trial):
     return worked, np.array(parted)
 
 
-@pytest.mark.parametrize("run", RUNS)
+@pytest.mark.parametrize(
+    "run", [pytest.param(run, marks=pytest.mark.long) if run in ("thin radio", "robots die") else run for run in RUNS]
+)
 def test_credit_and_losses_agree_with_what_other_code_reads_in_the_log(run):
     """Traps 19 and 23: every cycle, nothing averaged."""
     behaviour, footbot, failure_rate, seed = RUNS[run]

@@ -140,7 +140,14 @@ def test_two_hops_away_robots_align_with_the_corrected_rule_alone():
     assert fronts["corrected"] > 2.0 * fronts["printed"]
 
 
-@pytest.mark.parametrize("groups", [{}, {"footbot": {"drive": "holonomic"}}, {"footbot": {"radius": 0.05}}])
+@pytest.mark.parametrize(
+    "groups",
+    [
+        {},
+        pytest.param({"footbot": {"drive": "holonomic"}}, marks=pytest.mark.long),
+        pytest.param({"footbot": {"radius": 0.05}}, marks=pytest.mark.long),
+    ],
+)
 def test_speeds_bodies_and_links_keep_their_limits(groups):
     """Trap 11: v <= 0.15 m/s, no overlap, nobody hears through a body or beyond the range."""
     state = swarm(setting=2, robots=14, **groups)

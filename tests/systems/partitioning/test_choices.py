@@ -92,6 +92,7 @@ def test_to_the_letter_there_are_ten_draws_a_second_and_the_mean_wait_is_a_fifth
     assert np.mean(waits) == pytest.approx(0.31, abs=0.02)
 
 
+@pytest.mark.long
 def test_with_a_threshold_a_third_leaves_at_once_and_half_by_the_sum_of_all_estimates():
     """TP-16, reading T: for estimates of 60 s the median wait is 180 s."""
     robot = Robot(giveup_mode="threshold")
