@@ -75,7 +75,7 @@ def test_an_unfinished_study_is_drawn_as_far_as_it_goes(tmp_path, capsys):
     assert "3 of 1200 listed runs (3 of them failures)" in text
 
 
-def test_one_run_in_so_many_is_done_again(tmp_path, capsys):
+def test_one_run_in_so_many_is_done_again(tmp_path):
     """With every run in the sample: the rows come out again, doubled noise changes them, members are counted anew."""
     assert study("--figure", "S19", "--runs", "2", "--workers", "1", "--check", "1") == 0
     text = (tmp_path / "here" / "report.md").read_text()
@@ -83,8 +83,32 @@ def test_one_run_in_so_many_is_done_again(tmp_path, capsys):
         assert f"| T23 {name} | doubled noise changes the result | 0 of 2 rows stayed the same | passed |" in text
         assert "2 of 2 rows the same, times of 2 recomputed from the log | passed |" in text
         assert "by the log 2 of 2 runs done again | passed |" in text
-    assert study("--figure", "S19", "--runs", "2", "--check", "0") == 2
-    assert "--check 0: must be at least 1" in capsys.readouterr().err
+
+
+def test_what_is_there_is_checked_before_the_study_is_done(tmp_path):
+    design = open_design("mark-ii3-table-1", Asked("all", tmp_path / "here", runs=1))
+    assert answers.perform(design._replace(jobs=design.jobs[:1]), answers.Request(workers=1)) == 0
+    assert study("--figure", "7", "--workers", "1", "--collect-only", "--check", "1") == 1
+    text = (tmp_path / "here" / "report.md").read_text()
+    assert "| T23 Mark II3 | doubled noise changes the result | 0 of 1 rows stayed the same | passed |" in text
+    assert "1 of 1200 listed runs" in text
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        (("sequencing", "--check", "0"), "--check 0: must be at least 1"),
+        (("sequencing", "--check", "5", "--sources", "abc"), "leave out --sources and --from-tables"),
+        (("sequencing", "--check", "5", "--from-tables", "tables"), "leave out --sources and --from-tables"),
+        (("partitioning", "--check", "5"), "--check: of the study sequencing alone"),
+        (("coverage", "--setting", "1"), "--setting: of the study sequencing alone"),
+        (("scheduling", "--from-tables", "tables"), "--from-tables: of the study sequencing alone"),
+        (("sequencing", "--reference", "here"), "--reference: of the study connectivity alone"),
+    ],
+)
+def test_an_option_that_would_be_ignored_is_refused(asked, words, capsys):
+    assert exit_code(["study", *asked]) == 2
+    assert words in " ".join(capsys.readouterr().err.split())
 
 
 def test_a_run_that_was_ended_early_is_run_on_to_the_cap(tmp_path, monkeypatch):

@@ -11,6 +11,12 @@ Switch = Annotated[bool, Parameter(negative="")]
 Several = Annotated[tuple[str, ...], Parameter(negative="")]
 
 SEQUENCING = ("2", "3", "4", "5", "6", "7", "S15", "S17", "S18", "S19", "all")
+TAKEN_BY = {
+    "--setting": "sequencing",
+    "--check": "sequencing",
+    "--from-tables": "sequencing",
+    "--reference": "connectivity",
+}
 
 
 Name = Literal["sequencing", "partitioning", "connectivity", "coverage", "scheduling"]
@@ -51,6 +57,7 @@ def study(
         formicarium study sequencing --out study
         formicarium study sequencing --out study --figure 7 --setting 4 --runs 10
         formicarium study sequencing --out study --collect-only
+        formicarium study sequencing --out study --collect-only --check 20
         formicarium study partitioning --figure 7 --runs 3
         formicarium study connectivity --runs 5
         formicarium study coverage --figure table-1 --runs 5
@@ -80,10 +87,11 @@ def study(
     workers
         Processes that share the runs; one a core if not given.
     collect_only
-        Run nothing: draw from what is there, also while it is being run.
+        Run nothing that is missing: draw from what is there, also while it is being run.
     check
-        Run one in so many of the runs again, with its log, with doubled noise, and to
-        the cap where it was ended early; the report says what came of it.
+        Of sequencing: run one in so many of the runs that are there again, with its log,
+        with doubled noise, and to the cap where it was ended early; the report says what
+        came of it.
     sources
         Take the rows that these sources made (hashes, as in the rows; of several, for
         each campaign the one with most rows); runs nothing.
@@ -96,8 +104,14 @@ def study(
     """
     from formicarium.commands.errors import UserError
 
+    given = {"--setting": setting, "--check": check is not None, "--from-tables": from_tables, "--reference": reference}
+    for option, owner in TAKEN_BY.items():
+        if given[option] and name != owner:
+            raise UserError(f"{option}: of the study {owner} alone; leave it out, or name that study")
     if check is not None and check < 1:
         raise UserError(f"--check {check}: must be at least 1")
+    if check is not None and (sources or from_tables):
+        raise UserError("--check: runs rows again with today's sources; leave out --sources and --from-tables")
     if name == "partitioning":
         return _partitioning(figure, Path(out), runs, workers, collect_only, sources)
     if name == "connectivity":
@@ -106,7 +120,7 @@ def study(
         return _coverage(figure, Path(out), runs, workers, collect_only, sources)
     if name == "scheduling":
         return _scheduling(figure, Path(out), runs, workers, collect_only, sources)
-    from formicarium.commands.published.answers import draw_study, run_study
+    from formicarium.commands.published.answers import check_study, draw_study, run_study
     from formicarium.commands.published.store import Asked
 
     if figure not in SEQUENCING:
@@ -114,7 +128,9 @@ def study(
     tables = Path(from_tables) if from_tables is not None else None
     asked = Asked(figure, Path(out), runs, workers, sources, tuple(map(int, setting)), tables)
     runs_nothing = collect_only or sources or tables is not None
-    code = 0 if runs_nothing else run_study(asked, check)
+    code = 0 if runs_nothing else run_study(asked)
+    if check is not None:
+        code = max(code, check_study(asked, check))
     return max(code, draw_study(asked))
 
 

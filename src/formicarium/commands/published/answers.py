@@ -22,16 +22,19 @@ from formicarium.systems.sequencing.study import published_run_times
 Cells = dict[str, list[StudyCell]]  # design -> its cells
 
 
-def run_study(asked: Asked, one_in: int | None) -> int:
+def run_study(asked: Asked) -> int:
     """Run what the campaigns of a figure lack; return 0 if every run is done, 1 if some failed."""
     parts = NEEDS.get(asked.figure, [])
     code = max((perform(store.needed(part, asked), Request(workers=asked.workers)) for part in parts), default=0)
     if asked.figure in ("2", "all"):
         code = max(code, pictures.run_snapshots(asked.folder, asked.workers))
-    if one_in:  # of all that is there, whatever the figure
-        whole = [store.open_design(part.design, asked) for part in parts if part.design != PROLONGED]
-        code = max(code, checks.run_checks(whole, one_in, asked.workers))
     return code
+
+
+def check_study(asked: Asked, one_in: int) -> int:
+    """Run one in so many of the runs that are there again, in all cells of a figure's campaigns; return as above."""
+    designs = [part.design for part in NEEDS.get(asked.figure, []) if part.design != PROLONGED]
+    return checks.run_checks([store.open_design(name, asked) for name in designs], one_in, asked.workers)
 
 
 def draw_study(asked: Asked) -> int:
