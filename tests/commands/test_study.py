@@ -100,6 +100,7 @@ def test_what_is_there_is_checked_before_the_study_is_done(tmp_path):
         (("sequencing", "--check", "0"), "--check 0: must be at least 1"),
         (("sequencing", "--check", "5", "--sources", "abc"), "leave out --sources and --from-tables"),
         (("sequencing", "--check", "5", "--from-tables", "tables"), "leave out --sources and --from-tables"),
+        (("sequencing", "--figure", "S15", "--check", "5"), "--check: figure S15 is drawn without runs"),
         (("partitioning", "--check", "5"), "--check: of the study sequencing alone"),
         (("coverage", "--setting", "1"), "--setting: of the study sequencing alone"),
         (("scheduling", "--from-tables", "tables"), "--from-tables: of the study sequencing alone"),

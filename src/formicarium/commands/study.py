@@ -121,10 +121,12 @@ def study(
     if name == "scheduling":
         return _scheduling(figure, Path(out), runs, workers, collect_only, sources)
     from formicarium.commands.published.answers import check_study, draw_study, run_study
-    from formicarium.commands.published.store import Asked
+    from formicarium.commands.published.store import NEEDS, Asked
 
     if figure not in SEQUENCING:
         raise UserError(f"--figure {figure}: the study sequencing has {', '.join(SEQUENCING)}")
+    if check is not None and figure not in NEEDS:
+        raise UserError(f"--check: figure {figure} is drawn without runs; {', '.join(NEEDS)} have some")
     tables = Path(from_tables) if from_tables is not None else None
     asked = Asked(figure, Path(out), runs, workers, sources, tuple(map(int, setting)), tables)
     runs_nothing = collect_only or sources or tables is not None
