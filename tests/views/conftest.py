@@ -43,6 +43,15 @@ def until(page, condition, patience=20.0):
         time.sleep(0.02)
 
 
+def placed(page, column):
+    """Return where a robot is drawn, once the picture has come to rest."""
+    before, place = None, page.evaluate(f"watching.arena.place({column})")
+    while place != before:
+        page.wait_for_timeout(200)
+        before, place = place, page.evaluate(f"watching.arena.place({column})")
+    return place
+
+
 @contextlib.contextmanager
 def command(*words, folder):
     """Run ``formicarium watch`` or ``replay`` and give the address of its page; end it with Ctrl-C."""

@@ -8,7 +8,7 @@ import pytest
 
 from formicarium.commands.main import exit_code
 from formicarium.views.recording.log import read_recording
-from views.conftest import until
+from views.conftest import placed, until
 
 TESTS = Path(__file__).parents[1]
 NAME = "fireflies:FIREFLIES"
@@ -26,7 +26,7 @@ def test_an_unknown_system_is_watched_touched_recorded_and_replayed(folder, open
         page = opened(address)
         page.evaluate("watching.ask({do: 'seek', cycle: 300})")
         until(page, "watching.now.frame.cycle === 300")
-        page.mouse.click(*page.evaluate("watching.arena.place(2)"))
+        page.mouse.click(*placed(page, 2))
         until(page, "watching.now.inspection && watching.now.inspection.identity === 3")
         assert page.evaluate("summary.value") == "a firefly" and "phase" in page.inner_text("#inside")
         assert "firefly 1 flashes" in page.inner_text("#events")

@@ -10,7 +10,7 @@ from formicarium.systems.registry import resolve
 from formicarium.views.live.session import Session
 from formicarium.views.notebook import Replay
 from formicarium.views.recording.log import read_recording
-from views.conftest import command, until
+from views.conftest import command, placed, until
 
 SEED = 5
 CYCLE = "watching.now.frame.cycle"
@@ -34,15 +34,6 @@ def settled(page):
     until(page, "!watching.now.status.playing && watching.now.status.cycle === watching.now.frame.cycle")
     time.sleep(0.3)
     return page.evaluate(CYCLE)
-
-
-def placed(page, column):
-    """Return where a robot is drawn, once the picture has come to rest."""
-    before, place = None, page.evaluate(f"watching.arena.place({column})")
-    while place != before:
-        page.wait_for_timeout(200)
-        before, place = place, page.evaluate(f"watching.arena.place({column})")
-    return place
 
 
 def sought(page, cycle):

@@ -166,7 +166,7 @@ def test_only_this_machine_is_listened_to_unless_told_otherwise():
 
 
 def test_slow_and_vanished_pages_never_hold_the_trial():
-    served = Served(speed=0.0)
+    served = Served(speed=0.0, playing=False)
     try:
         with served.page() as awake:
             for _ in range(3):  # take nothing at all
@@ -179,13 +179,13 @@ def test_slow_and_vanished_pages_never_hold_the_trial():
                 )
             gone = served.page()
             gone.socket.shutdown(socket.SHUT_RDWR)
-            before = served.session.cycle
+            awake.send('{"do":"play"}')
             end = time.monotonic() + 20
             seen = 0
             while not served.session.finished and time.monotonic() < end:
                 with contextlib.suppress(TimeoutError):
                     seen += heard(awake, "frame", 0.5)[0]
-            assert served.session.finished and served.session.cycle > before and seen > 3
+            assert served.session.finished and seen > 3
     finally:
         served.stop()
     alone = SYSTEM.run(SYSTEM.configure(), 3)
