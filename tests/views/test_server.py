@@ -179,6 +179,7 @@ def test_slow_and_vanished_pages_never_hold_the_trial():
                 )
             gone = served.page()
             gone.socket.shutdown(socket.SHUT_RDWR)
+            assert served.session.cycle == 0  # all are there before it begins
             awake.send('{"do":"play"}')
             end = time.monotonic() + 20
             seen = 0
